@@ -436,7 +436,9 @@ enum hf_handle_reason {
   HF_HANDLE_REASON_END = 2,   /* one of the two ends of a component without feet or tips */
   HF_HANDLE_REASON_JOINT = 3, /* a joint of the given skeleton: an end, or where it branches. Or a head, hand or foot
                                  that is no tip of the surface */
-  HF_HANDLE_REASON_MIDDLE = 4 /* the trunk of the largest component: the chest of a biped; pinned, inside the surface */
+  /* The trunk of the largest component: the chest of a biped; pinned, inside the surface. With a skeleton of an upright
+   * body all that chest and shoulders move is held, up to the neck */
+  HF_HANDLE_REASON_MIDDLE = 4
 };
 
 typedef struct hf_handle_proposals_desc {

@@ -209,18 +209,20 @@ typedef struct hf_transfer_frame {
  * path exactly. No vertex of the target sinks deeper into the ground than the source, scaled, except the vertices
  * of hf_transfer_get_sinking. A part that would sink bends up. The ground does not move regions that you hold. A lying
  * target rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules
- * of the ground come in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair),
- * HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE (index = source vertex, or position in the holds; 1e15 boxes away),
- * HF_ERROR_TOO_LARGE (holds), HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_UNSUPPORTED
- * (holds with HF_TRANSFER_STRETCH). Thread safety: changes `transfer`. Since 0.1. */
+ * of the ground come in continuously. The ground is under the feet of each body at rest, and what hangs lower is none:
+ * a cape, a tail, scenery. Without feet, or where the trunk is below them, it is the lowest vertex. HF_GROUND_OFF
+ * switches it off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE (index = source vertex,
+ * or position in the holds; 1e15 boxes away), HF_ERROR_TOO_LARGE (holds), HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT
+ * (a pair held twice), HF_ERROR_UNSUPPORTED (holds with HF_TRANSFER_STRETCH). Thread safety: changes `transfer`. Since
+ * 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* Writes which target vertices may sink into the ground. out_sinking: uint8_t[target.vertex_count], 1: it may sink.
- * These are limbs flagged HF_PAIR_SINKS, tails (HF_PAIR_TAIL) where they are thin, and thin parts that no pair moves:
- * antlers, ears, a held weapon. Thin is less than 4 % of the bounding box through. Legs (HF_PAIR_FOOT) never sink by
- * themselves. Thin parts around an anchor, a contact or the trunk do not sink either, except loose pieces without a
- * pair. The first call after a change of pairs solves fields. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads
- * `transfer`. Since 0.1. */
+ * These are limbs flagged HF_PAIR_SINKS, tails (HF_PAIR_TAIL) where they are thin, thin parts that no pair moves
+ * (antlers, ears, a held weapon), and what hangs below the feet at rest. Thin is less than 4 % of the bounding box
+ * through. Legs (HF_PAIR_FOOT) never sink by themselves. Thin parts around an anchor, a contact or the trunk do not
+ * sink either, except loose pieces without a pair. The first call after a change of pairs solves fields. Errors:
+ * HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_sinking(hf_transfer transfer, uint8_t* out_sinking);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin replays

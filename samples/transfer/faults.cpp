@@ -147,7 +147,7 @@ ClipFaults find_faults(const Session& session, const PlayedClip& played) {
   ClipFaults out = motion_faults({session.source_flat(), session.target_flat(), session.source_flat().loose,
                                   session.target_flat().loose, session.scale()},
                                  played);
-  if (session.stretches()) out.sunk = 0;
+  if (!session.has_ground()) out.sunk = 0;
   for (const LimbMotion& limb : session.limbs_of(played)) {
     if (limb.source_moved < moving_limb) continue;
     ++out.moving;

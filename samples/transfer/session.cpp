@@ -58,7 +58,7 @@ Session::Session(const Model& source, const Model& target, const PairsFile& pair
       target_finder_(target, target_flat_, pairs.target_axes),
       source_known_(know_body(source, source_flat_)),
       target_known_(know_body(target, target_flat_)),
-      ground_(ground),
+      ground_(ground && pairs.settings.ground),
       rigid_(rigid) {
   try {
     create(threads, links, bar);
@@ -196,6 +196,8 @@ void Session::prepare() {
   sinking_.resize(target_flat_.vertex_count());
   check(hf_transfer_get_sinking(transfer_, sinking_.data()), "the parts that sink");
   for (size_t v = 0; v < sinking_.size(); ++v) sinking_[v] |= target_flat_.loose[v];
+  source_hangs_ = hanging(true);
+  target_hangs_ = hanging(false);
 }
 
 void Session::apply(const std::vector<double>& posed, std::vector<double>& out) {
@@ -235,8 +237,8 @@ std::vector<PairEntry> Session::found_contacts(const std::vector<std::vector<dou
   const std::vector<double> source_rest = double_positions(source_flat_.positions),
                             target_rest = double_positions(target_flat_.positions);
   const glm::dvec3 &up = file_.source_axes.up, &target_up = file_.target_axes.up;
-  const double ground = lowest_of(source_rest, up, source_flat_.loose),
-               target_ground = lowest_of(target_rest, target_up, target_flat_.loose);
+  const double ground = lowest_of(source_rest, up, source_hangs_),
+               target_ground = lowest_of(target_rest, target_up, target_hangs_);
   const bool has_feet = std::any_of(live_.begin(), live_.end(), [](const Live& live) { return live.entry.foot; });
   std::vector<PairEntry> out;
   for (const Live& live : live_) {
@@ -287,7 +289,7 @@ std::vector<PairEntry> Session::named_contacts(const std::vector<std::string>& n
     PairEntry entry = found->entry;
     // what stands at rest is a foot
     const double rest = lowest_of(found->source, double_positions(source_flat_.positions), file_.source_axes.up) -
-                        lowest_of(double_positions(source_flat_.positions), file_.source_axes.up, source_flat_.loose);
+                        lowest_of(double_positions(source_flat_.positions), file_.source_axes.up, source_hangs_);
     (rest < 0.02 * source_finder_.diagonal() ? entry.foot : entry.contact) = true;
     out.push_back(entry);
   }
@@ -296,7 +298,8 @@ std::vector<PairEntry> Session::named_contacts(const std::vector<std::string>& n
 
 std::vector<std::string> Session::set_contacts(const std::vector<std::string>& names,
                                                const std::vector<std::vector<double>>& poses) {
-  if (stretches() || (names.size() == 1 && names.front() == "none")) return {};
+  if (stretches() || (names.empty() && !file_.settings.ground) || (names.size() == 1 && names.front() == "none"))
+    return {};
   const std::vector<PairEntry> entries = names.empty() ? found_contacts(poses) : named_contacts(names);
   if (!entries.empty()) change_flags(entries);
   std::vector<std::string> out;

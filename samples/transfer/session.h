@@ -123,6 +123,7 @@ class Session {
   uint32_t joint_count() const;  // of the skin: clusters and rigid pieces
   size_t rigid_count() const { return rigid_count_; }
   bool stretches() const { return file_.settings.stretch; }  // no skin, no ground, no dials
+  bool has_ground() const { return file_.settings.ground && !stretches(); }
 
   // Of the surfaces and the transfer.
   hf_transfer_info info() const;
@@ -154,6 +155,7 @@ class Session {
   std::vector<std::string> other_axes() const;
   std::vector<PairEntry> found_contacts(const std::vector<std::vector<double>>& poses) const;
   std::vector<PairEntry> named_contacts(const std::vector<std::string>& names) const;
+  std::vector<uint8_t> hanging(bool source) const;
   void apply(const std::vector<double>& posed, std::vector<double>& out);
   static hf_surface_report mesh_report(hf_surface surface);
 
@@ -168,6 +170,7 @@ class Session {
   hf_transfer transfer_ = nullptr;
   std::vector<Live> live_;
   std::vector<uint8_t> sinking_;
+  std::vector<uint8_t> source_hangs_, target_hangs_;  // by flat vertex: 1 if it is no part of what stands
   bool in_place_ = false, proposed_ = false;
   bool ground_ = true, rigid_ = true;
   size_t rigid_count_ = 0;

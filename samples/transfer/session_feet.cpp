@@ -1,5 +1,6 @@
 // How feet stand over a clip. See session.h.
 #include <cmath>
+#include <limits>
 
 #include "transfer/posed_region.h"
 #include "transfer/session.h"
@@ -56,7 +57,7 @@ FootReport Session::feet_of(const PlayedClip& played) const {
       feet.path_mean += miss;
       feet.path_max = std::max(feet.path_max, miss);
       ++count;
-      const double ground = lowest_of(source_rest, file_.source_axes.up, source_flat_.loose);
+      const double ground = lowest_of(source_rest, file_.source_axes.up, source_hangs_);
       const bool is_low =
           scale_ * (lowest_of(source, played.source_frames[f], file_.source_axes.up) - ground) < foot_stands * box;
       const bool stands = is_low && even(f) &&
@@ -89,20 +90,41 @@ FootReport Session::feet_of(const PlayedClip& played) const {
   return feet;
 }
 
+// Loose vertices, and those so far below the feet at rest that no foot would stand over them, as the library has it: a
+// cape, a tail, scenery. A body whose trunk is below its feet stands on all of it.
+std::vector<uint8_t> Session::hanging(bool source) const {
+  const FlatMesh& mesh = source ? source_flat_ : target_flat_;
+  const glm::dvec3& up = source ? file_.source_axes.up : file_.target_axes.up;
+  const std::vector<double> rest = double_positions(mesh.positions);
+  std::vector<uint8_t> out = mesh.loose;
+  double feet = std::numeric_limits<double>::infinity(), trunk = feet;
+  for (const Live& live : live_) {
+    const uint32_t flags = live.entry.flags();
+    if (!(flags & (HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NECK))) continue;
+    double& low = flags & HF_PAIR_FOOT ? feet : trunk;
+    low = std::min(low, lowest_of(source ? live.source : live.target, rest, up));
+  }
+  if (!(feet < trunk)) return out;
+  const double limit = feet - foot_stands * (source ? source_finder_ : target_finder_).diagonal();
+  for (size_t v = 0; v < out.size(); ++v)
+    out[v] = out[v] || glm::dot(up, glm::dvec3(rest[3 * v], rest[3 * v + 1], rest[3 * v + 2])) < limit;
+  return out;
+}
+
 std::vector<double> Session::grounds(const PlayedClip& played) const {
-  const std::vector<uint8_t>& loose = source_flat_.loose;
-  const double source_ground = lowest_of(double_positions(source_flat_.positions), file_.source_axes.up, loose),
-               ground = lowest_of(double_positions(target_flat_.positions), file_.target_axes.up, target_flat_.loose);
+  const double source_ground = lowest_of(double_positions(source_flat_.positions), file_.source_axes.up, source_hangs_),
+               ground = lowest_of(double_positions(target_flat_.positions), file_.target_axes.up, target_hangs_);
   std::vector<double> out;
   for (const std::vector<double>& posed : played.source_frames)
-    out.push_back(ground + scale_ * std::min(0.0, lowest_of(posed, file_.source_axes.up, loose) - source_ground));
+    out.push_back(ground +
+                  scale_ * std::min(0.0, lowest_of(posed, file_.source_axes.up, source_hangs_) - source_ground));
   return out;
 }
 
 std::vector<double> Session::standing(const PlayedClip& played, size_t frame) const {
   const double box = target_mesh().bounding_box_diagonal;
   const glm::dvec3& up = file_.source_axes.up;
-  const double ground = lowest_of(double_positions(source_flat_.positions), up, source_flat_.loose);
+  const double ground = lowest_of(double_positions(source_flat_.positions), up, source_hangs_);
   std::vector<double> out(target_flat_.positions.size(), 0.0);
   for (const Live& live : live_) {
     if (!live.entry.foot) continue;

@@ -279,10 +279,15 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
         slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
     faults.hover = hover_of(source, target, scale, played[c].source_frames, played[c].target_frames);
     if (models.pair.understood()) faults.uneven = models.pair.unevenness();
-    report.depths.push_back(
-        depth_of(source, target, scale, source_out, target_out, played[c].source_frames, played[c].target_frames));
-    const double flesh =
-        depth_of(source, target, scale, source_flesh, target_flesh, played[c].source_frames, played[c].target_frames);
+    // nothing is under a fish
+    const bool ground = !models.source_known.swims() && !models.target_known.swims();
+    const auto depth = [&](const std::vector<uint8_t>& source_part, const std::vector<uint8_t>& target_part) {
+      return ground ? depth_of(source, target, scale, source_part, target_part, played[c].source_frames,
+                               played[c].target_frames)
+                    : 0;
+    };
+    report.depths.push_back(depth(source_out, target_out));
+    const double flesh = depth(source_flesh, target_flesh);
     if (report.depths.back() > flesh) faults.held = report.depths.back();
     faults.confidence = confidence_of(faults, played[c].target_frames.size());
     if ((!known || fit.compared == 0 || !has_source) && faults.confidence > unseen_confidence) {

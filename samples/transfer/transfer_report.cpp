@@ -168,10 +168,10 @@ void add_quality(const RunReport& report, std::string& out) {
     const auto worst = std::max_element(fit.limbs.begin(), fit.limbs.end(),
                                         [](const LimbFit& a, const LimbFit& b) { return a.mean < b.mean; });
     print(out,
-          "  limbs         follow the source to %.0f degrees in \"%s\" (%s %.0f; trunk %.0f; %zu of %zu arms and legs "
-          "have a partner)\n",
+          "  limbs         follow the source to %.0f degrees in \"%s\" (%s %.0f; trunk %.0f; %zu of %zu %s have a "
+          "partner)\n",
           std::abs(fit.degrees), report.clip_names[c].c_str(), worst->name.c_str(), worst->mean, fit.trunk_degrees,
-          fit.limbs.size(), std::max(fit.source_limbs, fit.target_limbs));
+          fit.limbs.size(), std::max(fit.source_limbs, fit.target_limbs), fit.flaps ? "limbs" : "arms and legs");
   }
   for (size_t c = 0; c < report.depths.size(); ++c) {
     print(out, "  ground        deepest vertex %.2f %% of the box under it", 100 * report.depths[c]);

@@ -67,12 +67,14 @@ MovedParts::MovedParts(const Core& core, const KnownSkeleton& known)
       beside_(&memory_),
       start_(&memory_),
       vertex_(&memory_),
+      chest_(&memory_),
       moved_(&memory_) {
   read_roles();
   read_chains();
   find_unmoved();
   find_vertices();
   find_beside();
+  find_chest();
 }
 
 template <class Visit>
@@ -227,6 +229,33 @@ void MovedParts::find_beside() {
         beside_[v] |= inside[at(core_.topology().neighbour[at(k)])];
     }
   }
+}
+
+void MovedParts::find_chest() {
+  const Character& character = known_.character;
+  chest_.assign(known_.parents.size(), 0);
+  if (!(character.trunk > upright_trunk)) return;
+  for (std::size_t j = 0; j < chest_.size(); ++j) {
+    if (character.roles[j] != Role::head) continue;
+    std::int32_t above = static_cast<std::int32_t>(j);
+    while (above >= 0 && (character.roles[at(above)] == Role::head || character.roles[at(above)] == Role::neck))
+      above = character.carriers[at(above)];
+    if (above >= 0 && character.roles[at(above)] == Role::spine) chest_[at(above)] = 1;
+  }
+  for (std::size_t j = 0; j < chest_.size(); ++j) {
+    const std::int32_t carrier = character.carriers[j];
+    if (character.roles[j] == Role::shoulder && carrier >= 0 && chest_[at(carrier)] == 1) chest_[j] = 2;
+  }
+}
+
+bool MovedParts::is_of_chest(std::int32_t vertex) const noexcept {
+  if (beside_[at(vertex)]) return false;
+  double all = 0, own = 0;
+  for_joints(vertex, [&](std::uint32_t j, double weight) {
+    all += weight;
+    if (chest_[j]) own += weight;
+  });
+  return 2 * own > all;
 }
 
 std::uint32_t MovedParts::joint_of(Span<const std::int32_t> region) {

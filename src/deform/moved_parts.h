@@ -66,6 +66,9 @@ class MovedParts {
   bool is_of_spine(std::int32_t vertex) const noexcept {
     return beside_[static_cast<std::size_t>(vertex)] == 0 && main_role_of({&vertex, 1}).role == Role::spine;
   }
+  // Whether the vertex is one that the chest of an upright body moves: the last joint of the spine before neck or head,
+  // or a shoulder. Without it a head that is dragged draws the chest to a neck. free_rings as above.
+  bool is_of_chest(std::int32_t vertex) const noexcept;
   // The part of a joint, or -1.
   std::int32_t part_of_joint(std::uint32_t joint) const noexcept { return joint_part_[joint]; }
 
@@ -75,6 +78,7 @@ class MovedParts {
   void find_unmoved();
   void find_vertices();
   void find_beside();
+  void find_chest();
   // Calls visit(joint, weight) for the joints of an inner vertex.
   template <class Visit>
   void for_joints(std::int32_t v, Visit&& visit) const;
@@ -94,6 +98,7 @@ class MovedParts {
   Vector<std::int32_t> vertex_part_;     // by inner vertex, or -1
   Vector<std::uint8_t> beside_;          // by inner vertex: 1 in a part, and free_rings edges or a link around it
   Vector<std::int32_t> start_, vertex_;  // vertices of part p: vertex_[start_[p] .. start_[p + 1])
+  Vector<std::uint8_t> chest_;           // by joint
   Vector<double> moved_;                 // by joint: scratch of joint_of
 };
 

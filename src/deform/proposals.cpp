@@ -220,8 +220,8 @@ class Proposer {
     found_.push_back(out);
   }
 
-  // Pins the vertices near the middle of the trunk that the spine moves. If the middle is on a thigh or a neck, it
-  // moves to the middle of the vertices that the spine moves.
+  // Pins the vertices near the middle of the trunk that the spine moves, and the chest of an upright body. If the
+  // middle is on a thigh or a neck, it moves to the middle of the vertices that the spine moves.
   void place_trunk(MovedParts& parts) {
     const auto middle = std::find_if(found_.begin(), found_.end(),
                                      [](const Candidate& other) { return other.reason == HandleReason::middle; });
@@ -245,7 +245,13 @@ class Proposer {
       middle->radius = most_radius;
       held = near_middle();
     }
-    if (held.size() >= least_region) middle->part = parts.add_trunk(held);
+    if (held.size() < least_region) return;
+    for (std::size_t v = 0; v < spine.size(); ++v) {
+      if (parts.is_of_chest(static_cast<Index>(v))) held.push_back(static_cast<Index>(v));
+    }
+    std::sort(held.begin(), held.end());
+    held.erase(std::unique(held.begin(), held.end()), held.end());
+    middle->part = parts.add_trunk(held);
   }
 
   // ---- the list ----

@@ -34,6 +34,8 @@ BodyPart part_of(Role role) {
       return BodyPart::head;
     case Role::ear:
       return BodyPart::ear;
+    case Role::antenna:
+      return BodyPart::antenna;
     case Role::arm:
       return BodyPart::arm;
     case Role::hand:
@@ -46,23 +48,29 @@ BodyPart part_of(Role role) {
       return BodyPart::leg;
     case Role::tail:
       return BodyPart::tail;
+    case Role::wing:
+      return BodyPart::wing;
+    case Role::fin:
+      return BodyPart::fin;
     default:
       return BodyPart::other;
   }
 }
 
-// The chain in which a limb begins: from toes over the foot to the leg, from fingers over the hand to the arm.
+// The chain in which a limb begins: from toes over the foot to the leg, from fingers over the hand to the arm, from the
+// feathers to the wing.
 int limb_of_chain(const Character& character, int chain) {
   const auto part = [&](int c) { return part_of(character.chains[static_cast<size_t>(c)].role); };
   const auto is_leg = [&](int c) { return part(c) == BodyPart::leg; };
   const auto is_arm = [&](int c) {
     return part(c) == BodyPart::arm || part(c) == BodyPart::hand || part(c) == BodyPart::finger;
   };
-  if (!is_leg(chain) && !is_arm(chain)) return -1;
-  const bool leg = is_leg(chain);
+  const bool leg = is_leg(chain), arm = is_arm(chain);
+  const BodyPart own = part(chain);
+  if (!leg && !arm && own != BodyPart::wing && own != BodyPart::fin) return -1;
   for (;;) {
     const int above = character.chains[static_cast<size_t>(chain)].parent;
-    if (above < 0 || !(leg ? is_leg(above) : is_arm(above))) return chain;
+    if (above < 0 || !(leg ? is_leg(above) : arm ? is_arm(above) : part(above) == own)) return chain;
     chain = above;
   }
 }
@@ -128,6 +136,13 @@ void take(const Character& character, KnownBody& out) {
 bool KnownBody::knows_axes() const { return knows_parts() && up_confidence >= enough && forward_confidence >= enough; }
 
 bool KnownBody::knows_parts() const { return !nodes.empty() && part_confidence >= enough; }
+
+bool KnownBody::swims() const {
+  const auto has = [&](BodyPart part) {
+    return std::any_of(nodes.begin(), nodes.end(), [&](const KnownNode& node) { return node.part == part; });
+  };
+  return knows_parts() && has(BodyPart::fin) && !has(BodyPart::leg);
+}
 
 KnownBody know_body(const Model& model, const FlatMesh& mesh, const Axes* given, const Pose* pose) {
   KnownBody out;

@@ -11,12 +11,12 @@
 
 namespace hf_gltf {
 
-enum class BodyPart { other, trunk, head, ear, arm, hand, finger, leg, tail };
+enum class BodyPart { other, trunk, head, ear, antenna, arm, hand, finger, leg, tail, wing, fin };
 
 struct KnownNode {
   BodyPart part = BodyPart::other;
   int side = 0;   // 1: left, -1: right
-  int limb = -1;  // the same for all nodes of one arm or one leg
+  int limb = -1;  // the same for all nodes of one arm, leg, wing or fin
 };
 
 struct KnownBody {
@@ -30,6 +30,8 @@ struct KnownBody {
   bool upright = false;  // the way from the hips to the head leads up
   bool knows_axes() const;
   bool knows_parts() const;
+  // A body with fins and without legs swims: no ground is under it.
+  bool swims() const;
 };
 
 // given: axes that the caller knows, or null. pose: the pose of the mesh's positions; null: the pose of the file.

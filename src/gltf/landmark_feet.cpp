@@ -104,7 +104,7 @@ void Finder::find_known_feet() {
   std::map<int, End> limbs;
   for (const uint32_t v : first_) {
     const KnownNode node = known(v);
-    if (node.limb < 0 || node.side == 0) continue;
+    if (node.limb < 0 || node.side == 0 || node.part == BodyPart::wing || node.part == BodyPart::fin) continue;
     End& limb = limbs[node.limb];
     limb.part = node.part == BodyPart::leg ? BodyPart::leg : BodyPart::arm;
     limb.side = node.side;
@@ -156,7 +156,7 @@ void Finder::find_feet(double reach, double slack) {
     while (parent[w] != w) w = parent[w] = parent[parent[w]];
     return w;
   };
-  const auto is_low = [&](uint32_t v) { return up(v) < reach * height_; };
+  const auto is_low = [&](uint32_t v) { return up(v) < reach * height_ && may_be_foot(v); };
   for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
     const uint32_t a = mesh_.triangles[t], b = mesh_.triangles[t - t % 3 + (t + 1) % 3];
     if (is_low(a) && is_low(b)) parent[root(mesh_.welded[a])] = root(mesh_.welded[b]);

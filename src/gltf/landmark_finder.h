@@ -47,6 +47,12 @@ class Finder {
   double asymmetry(int axis) const;
   // The part of the body that a vertex belongs to, as far as the skeleton says.
   KnownNode known(uint32_t v) const;
+  // The known part that a vertex belongs to, or on which its joint hangs: a horn is part of the head.
+  BodyPart carried_by(uint32_t v) const;
+  // Whether the skeleton lets the surface guess a hand here, and a foot: not on a head, a tail, a wing or a fin.
+  bool may_be_hand(uint32_t v) const;
+  bool may_be_foot(uint32_t v) const;
+  bool carries_limbs(uint32_t v) const;
   std::vector<uint32_t> of_part(BodyPart part) const;
   void choose_axes();
   void find_axes();
@@ -67,6 +73,7 @@ class Finder {
   bool back_at(double height, glm::dvec3& place) const;
   double neck_height(double crotch) const;
   void add_head(), add_ears(), add_tail(), add_hands(), add_fins(), add_trunk();
+  bool add_known_fins(BodyPart part, const std::string& name);
 
   const Model& model_;
   const FlatMesh& mesh_;

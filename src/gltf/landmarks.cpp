@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "gltf/landmark_finder.h"
@@ -32,6 +33,25 @@ void Finder::measure() {
 KnownNode Finder::known(uint32_t v) const {
   const int owner = regions_ && out_.known.knows_parts() ? regions_->owner(v) : -1;
   return owner < 0 ? KnownNode() : out_.known.nodes[static_cast<size_t>(owner)];
+}
+
+BodyPart Finder::carried_by(uint32_t v) const {
+  const int owner = regions_ && out_.known.knows_parts() ? regions_->owner(v) : -1;
+  for (int node = owner; node >= 0; node = model_.nodes[static_cast<size_t>(node)].parent) {
+    const BodyPart part = out_.known.nodes[static_cast<size_t>(node)].part;
+    if (part != BodyPart::other) return part;
+  }
+  return BodyPart::other;
+}
+
+bool Finder::may_be_hand(uint32_t v) const { return carries_limbs(v) && known(v).part != BodyPart::leg; }
+
+bool Finder::may_be_foot(uint32_t v) const { return carries_limbs(v) && known(v).part != BodyPart::trunk; }
+
+bool Finder::carries_limbs(uint32_t v) const {
+  const BodyPart part = carried_by(v);
+  return part != BodyPart::head && part != BodyPart::ear && part != BodyPart::antenna && part != BodyPart::tail &&
+         part != BodyPart::wing && part != BodyPart::fin;
 }
 
 std::vector<uint32_t> Finder::of_part(BodyPart part) const {
@@ -143,6 +163,8 @@ void Finder::add_tail() {
     const bool is_foot = std::any_of(feet_.begin(), feet_.end(), [&](const Foot& foot) {
       return glm::distance(foot.place, mesh_.positions[v]) < 2 * same_foot * diagonal_;
     });
+    const BodyPart part = carried_by(v);
+    if (part == BodyPart::wing || part == BodyPart::fin || part == BodyPart::head) continue;
     if (!is_foot && forward(v) < back_ + 0.35 * (front_ - back_) && std::abs(side(v)) < 0.1 * diagonal_)
       rear.push_back(v);
   }
@@ -157,44 +179,102 @@ void Finder::add_tail() {
       "rearmost place");
 }
 
+// By shape alone only where the body stands on two legs, and on both sides or on none: a horn on one side is no hand.
 void Finder::add_hands() {
   std::vector<uint32_t> hands = of_part(BodyPart::hand);
   if (hands.empty()) hands = of_part(BodyPart::finger);
   const glm::dvec3 chest =
       middle_ * axes_.right + 0.5 * (front_ + back_) * axes_.forward + (ground_ + 0.8 * height_) * axes_.up;
+  const auto reach = [&](uint32_t v) { return glm::distance(mesh_.positions[v], chest); };
+  struct Hand {
+    uint32_t vertex = 0;
+    double confidence = 0;
+    const char* found = nullptr;
+  } ends[2];
+  bool by_joints = false;
   for (const double sign : {1.0, -1.0}) {
-    const std::string name = sign > 0 ? "hand left" : "hand right";
     std::vector<uint32_t> own, tips, wide;
     for (const uint32_t v : hands)
       if (sign * known(v).side > 0) own.push_back(v);
     const auto is_hand = [&](uint32_t v) {
-      return sign * side(v) > 0.1 * height_ && up(v) > 0.05 * height_ && up(v) < 0.85 * height_;
+      return sign * side(v) > 0.1 * height_ && up(v) > 0.05 * height_ && up(v) < 0.85 * height_ && may_be_hand(v);
     };
     for (const uint32_t v : tips_)
       if (is_hand(v)) tips.push_back(v);
     for (const uint32_t v : first_)
       if (is_hand(v)) wide.push_back(v);
-    const auto reach = [&](uint32_t v) { return glm::distance(mesh_.positions[v], chest); };
     const auto width = [&](uint32_t v) { return sign * side(v); };
-    const std::vector<std::string> directions = {"down", "away", sign > 0 ? "right" : "left", "forward"};
     const auto raised =
         std::find_if(raised_.begin(), raised_.end(), [&](const Foot& foot) { return sign * foot.known_side > 0; });
-    if (!own.empty()) {
-      add(name, best_of(own, reach), directions, 0.9, "end of the hand joints");
-    } else if (raised != raised_.end()) {
-      add(name, raised->vertex, directions, 0.8, "end of the arm joints");
-    } else if (!tips.empty()) {
-      add(name, best_of(tips, width), directions, 0.7, "extremity at the side");
-    } else if (!wide.empty() && out_.upright) {
-      add(name, best_of(wide, width), directions, 0.4, "widest place");
-    }
+    Hand& hand = ends[sign > 0 ? 0 : 1];
+    const bool known_here = !own.empty() || raised != raised_.end();
+    by_joints = by_joints || known_here;
+    if (!own.empty())
+      hand = {best_of(own, reach), 0.9, "end of the hand joints"};
+    else if (raised != raised_.end())
+      hand = {raised->vertex, 0.8, "end of the arm joints"};
+    else if (out_.leg_pairs == 1 && !tips.empty())
+      hand = {best_of(tips, width), 0.7, "extremity at the side"};
+    else if (out_.leg_pairs == 1 && !wide.empty() && out_.upright)
+      hand = {best_of(wide, width), 0.4, "widest place"};
+  }
+  if (!by_joints && (!ends[0].found || !ends[1].found)) return;
+  for (const bool left : {true, false}) {
+    const Hand& hand = ends[left ? 0 : 1];
+    if (hand.found)
+      add(left ? "hand left" : "hand right", hand.vertex, {"down", "away", left ? "right" : "left", "forward"},
+          hand.confidence, hand.found);
   }
 }
 
-// Fins and wings of a body without feet: the widest places, if they are far from the middle.
+// The tips of the longest pair of fins or wings of the skeleton. Returns whether there is one.
+bool Finder::add_known_fins(BodyPart part, const std::string& name) {
+  std::map<int, std::vector<uint32_t>> limbs;
+  for (const uint32_t v : of_part(part)) {
+    const KnownNode node = known(v);
+    if (node.limb >= 0 && node.side != 0) limbs[node.limb].push_back(v);
+  }
+  struct Tip {
+    uint32_t vertex = 0;
+    double length = 0;
+  };
+  std::vector<Tip> sides[2];
+  for (const auto& [number, limb] : limbs) {
+    // the end that is furthest from where the limb meets the body
+    const uint32_t base = best_of(limb, [&](uint32_t v) { return -std::abs(side(v)); });
+    const auto reach = [&](uint32_t v) { return glm::distance(mesh_.positions[v], mesh_.positions[base]); };
+    const uint32_t tip = best_of(limb, reach);
+    sides[known(tip).side > 0 ? 0 : 1].push_back({tip, reach(tip)});
+  }
+  const Tip* best[2] = {nullptr, nullptr};
+  double most = 0;
+  for (const Tip& left : sides[0]) {
+    const glm::dvec3 mirrored = mesh_.positions[left.vertex] - 2 * side(left.vertex) * axes_.right;
+    for (const Tip& right : sides[1]) {
+      // tips of a pair mirror each other
+      const double value = left.length + right.length - glm::distance(mirrored, mesh_.positions[right.vertex]);
+      if (best[0] && value <= most) continue;
+      most = value;
+      best[0] = &left;
+      best[1] = &right;
+    }
+  }
+  if (!best[0]) return false;
+  for (const bool left : {true, false})
+    add(name + (left ? " left" : " right"), best[left ? 0 : 1]->vertex,
+        {"away", left ? "right" : "left", "up", "down", "back"}, 0.9, "tip of the " + name + " joints");
+  return true;
+}
+
+// Fins of a body without feet: those of the skeleton, else the widest places, if they are far from the middle.
 void Finder::add_fins() {
+  if (add_known_fins(BodyPart::fin, "fin")) return;
+  std::vector<uint32_t> free;
+  for (const uint32_t v : first_)
+    if (may_be_hand(v)) free.push_back(v);
   for (const double sign : {1.0, -1.0}) {
-    const uint32_t tip = best_of(first_, [&](uint32_t v) { return sign * side(v); });
+    if (free.empty()) return;
+    const uint32_t tip = best_of(free, [&](uint32_t v) { return sign * side(v); });
     if (sign * side(tip) > 0.15 * diagonal_)
       add(sign > 0 ? "fin left" : "fin right", tip, {sign > 0 ? "right" : "left", "away"}, 0.5, "widest place");
   }
@@ -253,8 +333,9 @@ Landmarks Finder::find(const Axes* axes) {
       feet_.push_back(foot);
     }
   }
-  if (pairs == 1) add_hands();
+  if (pairs <= 1) add_hands();
   if (pairs == 0) add_fins();
+  add_known_fins(BodyPart::wing, "wing");
   add_trunk();
   return out_;
 }

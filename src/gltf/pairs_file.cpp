@@ -129,13 +129,14 @@ PairsFile pairs_from(const JsonReader& root, const std::filesystem::path& file, 
   if (root.has("target_axes")) out.target_axes = read_axes(root.at("target_axes"));
   if (root.has("settings")) {
     const JsonReader settings = root.at("settings");
-    settings.expect_only({"mode", "clusters", "width", "scale", "alignment_degrees"});
+    settings.expect_only({"mode", "clusters", "width", "scale", "alignment_degrees", "ground"});
     const std::string mode = settings.string_or("mode", "fields");
     if (mode != "fields" && mode != "paper" && mode != "stretch")
       settings.at("mode").fail("expected \"fields\", \"paper\" or \"stretch\", found \"" + mode + "\"");
     out.settings.paper = mode == "paper";
     out.settings.stretch = mode == "stretch";
     out.settings.clusters = static_cast<uint32_t>(settings.integer_or("clusters", 1, 512, 0));
+    out.settings.ground = settings.boolean_or("ground", true);
     if (settings.has("width")) out.settings.width = settings.at("width").number(0.005, 0.5);
     if (settings.has("scale")) out.settings.scale = settings.at("scale").number(1e-6, 1e6);
     if (settings.has("alignment_degrees"))

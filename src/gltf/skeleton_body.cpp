@@ -48,7 +48,8 @@ void SkeletonBody::look() {
   size_t left = 0, right = 0;
   const std::vector<glm::dmat4> globals = global_matrices(side.model, rest_of());
   for (const Chain& chain : c.chains) {
-    if (chain.role != Role::arm && chain.role != Role::leg) continue;
+    if (chain.role != Role::arm && chain.role != Role::leg && chain.role != Role::wing && chain.role != Role::fin)
+      continue;
     if (chain.role == Role::leg) ++(chain.side == Side::left ? left : right);
     limbs.push_back(limb_of(chain, globals));
   }

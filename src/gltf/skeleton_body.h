@@ -1,4 +1,4 @@
-// One of the two characters of a SkeletonPair: what its skeleton says, and its arms and legs as bones.
+// One of the two characters of a SkeletonPair: what its skeleton says, and its arms, legs, wings and fins as bones.
 #ifndef HF_GLTF_SKELETON_BODY_H
 #define HF_GLTF_SKELETON_BODY_H
 
@@ -41,7 +41,7 @@ inline glm::dvec3 place_of(const std::vector<glm::dmat4>& globals, int node) {
   return glm::dvec3(globals[static_cast<size_t>(node)][3]);
 }
 
-// An arm or a leg as two bones: root, the joint nearest to half its length, and the end.
+// An arm, a leg, a wing or a fin as two bones: root, the joint nearest to half its length, and the end.
 struct BodyLimb {
   Role role = Role::other;
   Side side = Side::middle;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 #include "gltf/clip_binding.h"
 #include "gltf/riders.h"
@@ -117,9 +118,30 @@ struct SkeletonPair::Inside {
     return out;
   }
   const BodyLimb* partner(const BodyLimb& b) const {
+    // As the retarget pairs them: the first arm, wing or fin with one of another kind where there is none of its own.
+    Role role = b.role;
+    if (role != Role::leg) {
+      const Role by = flapping_partner(*source.character, *target.character, b.side, role);
+      if (by != role && b.number > 0) return nullptr;
+      role = by;
+    }
     for (const BodyLimb& a : source.limbs)
-      if (a.role == b.role && a.side == b.side && a.number == b.number) return &a;
+      if (a.role == role && a.side == b.side && a.number == b.number) return &a;
     return nullptr;
+  }
+  // Arms and legs, and the wings and fins that lead or follow.
+  std::pair<size_t, size_t> counted() const {
+    std::pair<size_t, size_t> out(0, 0);
+    std::vector<const BodyLimb*> leading;
+    const auto walks = [](const BodyLimb& limb) { return limb.role == Role::arm || limb.role == Role::leg; };
+    for (const BodyLimb& b : target.limbs) {
+      const BodyLimb* by = partner(b);
+      if (by) leading.push_back(by);
+      out.second += by || walks(b);
+    }
+    for (const BodyLimb& a : source.limbs)
+      out.first += walks(a) || std::find(leading.begin(), leading.end(), &a) != leading.end();
+    return out;
   }
 };
 
@@ -129,11 +151,11 @@ SkeletonPair::SkeletonPair(const JointSide& source, const JointSide& target)
   check_named(a, b);
   if (!in_->understood())
     in_->refusal = a.doubt.empty() ? b.doubt : a.doubt;
-  else if (a.leg_pairs != b.leg_pairs)
+  else if (a.leg_pairs != b.leg_pairs && a.leg_pairs > 0 && b.leg_pairs > 0)  // what swims or flies has arms to give
     in_->refusal = source.model.name + " has " + std::to_string(2 * a.leg_pairs) + " legs and " + target.model.name +
                    " has " + std::to_string(2 * b.leg_pairs);
   else if (in_->matched() < 2)
-    in_->refusal = "the skeletons have no pair of arms or legs in common";
+    in_->refusal = "the skeletons have no pair of arms, legs, wings or fins in common";
 }
 
 SkeletonPair::~SkeletonPair() = default;
@@ -154,10 +176,12 @@ double SkeletonPair::unevenness() const {
 }
 
 std::string SkeletonPair::limbs_text() const {
-  size_t legs = 0, arms = 0;
+  size_t legs = 0, arms = 0, others = 0;
   for (const BodyLimb& limb : in_->target.limbs)
-    if (in_->partner(limb)) ++(limb.role == Role::leg ? legs : arms);
-  return std::to_string(legs) + " legs and " + std::to_string(arms) + " arms";
+    if (in_->partner(limb)) ++(limb.role == Role::leg ? legs : limb.role == Role::arm ? arms : others);
+  const std::string walking = std::to_string(legs) + " legs and " + std::to_string(arms) + " arms",
+                    flapping = std::to_string(others) + " wings or fins";
+  return others == 0 ? walking : legs + arms == 0 ? flapping : walking + " and " + flapping;
 }
 
 int SkeletonPair::target_root() const {
@@ -307,8 +331,11 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
   PoseFit out;
   if (!in_->source.character || !in_->target.character) return out;
   const SkeletonBody &a = in_->source, &b = in_->target;
-  out.source_limbs = a.limbs.size();
-  out.target_limbs = b.limbs.size();
+  std::tie(out.source_limbs, out.target_limbs) = in_->counted();
+  for (const BodyLimb& limb : b.limbs) {
+    const BodyLimb* by = in_->partner(limb);
+    for (const BodyLimb* one : {&limb, by}) out.flaps |= by && (one->role == Role::wing || one->role == Role::fin);
+  }
   const size_t matched = in_->matched(), most = std::max(out.source_limbs, out.target_limbs);
   const auto off = static_cast<size_t>(std::count_if(
       b.limbs.begin(), b.limbs.end(), [&](const BodyLimb& limb) { return limb.off && in_->partner(limb); }));
@@ -335,6 +362,11 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
                              (b.leg_pairs > 1 && limb.role == Role::leg ? " " + std::to_string(limb.number + 1) : ""),
                          0, 0});
     const size_t index = out.limbs.size() - 1;
+    if (by->role != limb.role) {  // a fin has other joints than an arm: the whole limb points where it does
+      if (limb.nodes[2] >= 0 && by->nodes[2] >= 0)
+        bones.push_back({index, true, {by->nodes[0], by->nodes[2]}, {limb.nodes[0], limb.nodes[2]}});
+      continue;
+    }
     const bool alike = limb.role == Role::arm ? a.upright == b.upright : a.upright && b.upright;
     const auto both = [&](size_t k) { return limb.nodes[k] >= 0 && by->nodes[k] >= 0; };
     const int middle = middle_of(limb, *by);

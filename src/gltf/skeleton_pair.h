@@ -60,7 +60,8 @@ struct PoseFit {
   size_t compared = 0;                        // limbs with a bone whose both ends are joints
   double degrees = -1, worst = 0;             // mean over them, below 0: unknown; worst frame of the worst limb
   double trunk_degrees = 0, trunk_worst = 0;  // hips to neck, since rest
-  size_t source_limbs = 0, target_limbs = 0;  // arms and legs
+  size_t source_limbs = 0, target_limbs = 0;  // arms and legs, and wings and fins with a partner
+  bool flaps = false;                         // wings or fins are among them
   // Arms and legs of the target that nothing leads, or whose first joint is far from its vertices, and arms and legs of
   // the source without a partner for which the target has a limb of unknown part. A share of the arms and legs of the
   // body that has more.

@@ -55,20 +55,26 @@ std::string names_of(const Landmarks& landmarks) {
 std::string counterpart(const std::string& name, const Landmarks& from, const Landmarks& to) {
   if (to.get(name)) return name;
   static const char* const across[][2] = {{"nose", "head"},
+                                          {"wing left", "fin left"},
+                                          {"wing right", "fin right"},
                                           {"front foot left", "hand left"},
                                           {"front foot right", "hand right"},
                                           {"hind foot left", "foot left"},
                                           {"hind foot right", "foot right"},
                                           {"rump", "seat"},
-                                          {"withers", "upper back"},
-                                          {"fin left", "hand left"},
-                                          {"fin right", "hand right"},
-                                          {"fin left", "front foot left"},
-                                          {"fin right", "front foot right"}};
+                                          {"withers", "upper back"}};
   if (from.leg_pairs > 2 || to.leg_pairs > 2) return "";
+  // A place that both have pairs with itself: the wing of a body with hands is no hand.
   for (const auto& pair : across) {
-    if (name == pair[0] && to.get(pair[1])) return pair[1];
-    if (name == pair[1] && to.get(pair[0])) return pair[0];
+    if (name == pair[0] && to.get(pair[1]) && !from.get(pair[1])) return pair[1];
+    if (name == pair[1] && to.get(pair[0]) && !from.get(pair[0])) return pair[0];
+  }
+  // Arms flap as wings and fins do. But arms that hang would fold these down, and their strokes would splay front legs.
+  // Steps of front legs paddle with fins.
+  for (const std::string side : {" left", " right"}) {
+    if ((name == "wing" + side || name == "fin" + side) && to.get("hand" + side) && !from.get("hand" + side))
+      return "hand" + side;
+    if (name == "front foot" + side && to.get("fin" + side)) return "fin" + side;
   }
   return "";
 }
@@ -80,21 +86,39 @@ struct Candidate {
   Selector source, target;
 };
 
+// "hand" of "hand left"; empty: the place is in the middle.
+std::string without_side(const std::string& name) {
+  for (const std::string side : {" left", " right"}) {
+    if (name.size() > side.size() && name.compare(name.size() - side.size(), side.size(), side) == 0)
+      return name.substr(0, name.size() - side.size());
+  }
+  return "";
+}
+
 // Takes out pairs that the program itself would refuse: a region without a vertex, or inside the regions of other
-// pairs. The less certain of two pairs goes.
+// pairs. The less certain of two pairs goes, and its mirror image too: one arm that follows beside one that hangs is
+// worse than two that hang.
 void keep_accepted(const RegionFinder& source, const RegionFinder& target, std::vector<Candidate>& candidates,
                    std::vector<std::string>& notes) {
   std::vector<Candidate> ordered = candidates;
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const Candidate& a, const Candidate& b) { return a.said.confidence > b.said.confidence; });
   std::vector<std::string> kept;
+  std::vector<uint8_t> done(ordered.size(), 0);
   std::vector<Region> sources, targets;
-  for (const Candidate& candidate : ordered) {
+  for (size_t k = 0; k < ordered.size(); ++k) {
+    if (done[k]) continue;
+    const std::string limb = without_side(ordered[k].said.name);
+    std::vector<size_t> both;
+    for (size_t i = k; i < ordered.size(); ++i)
+      if (i == k || (!limb.empty() && without_side(ordered[i].said.name) == limb)) both.push_back(i);
     std::vector<Region> a = sources, b = targets;
-    bool good = false;
+    bool good = true;
     try {
-      a.push_back(source.find({candidate.source}));
-      b.push_back(target.find({candidate.target}));
+      for (const size_t i : both) {
+        a.push_back(source.find({ordered[i].source}));
+        b.push_back(target.find({ordered[i].target}));
+      }
       std::vector<Region> left = a, right = b;
       good = source.separate(left) < 0 && target.separate(right) < 0;
     } catch (const std::runtime_error&) {
@@ -103,9 +127,14 @@ void keep_accepted(const RegionFinder& source, const RegionFinder& target, std::
     if (good) {
       sources.swap(a);
       targets.swap(b);
-      kept.push_back(candidate.said.name);
-    } else {
-      notes.push_back("\"" + candidate.said.name + "\" lies inside other places on one of the two; it is left out");
+    }
+    for (const size_t i : both) {
+      done[i] = 1;
+      if (good)
+        kept.push_back(ordered[i].said.name);
+      else
+        notes.push_back("\"" + ordered[i].said.name + "\" lies inside other places on one of the two; it is left out" +
+                        (both.size() > 1 ? ", as its mirror image is" : ""));
     }
   }
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
@@ -125,12 +154,14 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
   const Landmarks from = find_landmarks(source_body), to = find_landmarks(target_body);
   Suggestion out;
   std::vector<Candidate> candidates;
+  std::vector<std::string> taken;  // a flying fish has wings and fins for two hands
   for (const Landmark& a : from.list) {
     const std::string other = counterpart(a.name, from, to);
-    if (other.empty()) {
+    if (other.empty() || std::find(taken.begin(), taken.end(), other) != taken.end()) {
       out.notes.push_back("only " + short_name(source) + " has \"" + a.name + "\"");
       continue;
     }
+    taken.push_back(other);
     const Landmark& b = *to.get(other);
     json pair = {{"name", a.name}};
     const json first = selector_json(a.place), second = selector_json(b.place);
@@ -158,8 +189,10 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
       pair["contact"] = false;
       pair["sinks"] = true;
     }
-    // a fin points to the side and a leg down: each keeps its own direction
-    const auto is_fin = [](const std::string& name) { return name.rfind("fin ", 0) == 0; };
+    // a fin or a wing points to the side and a leg down: each keeps its own direction
+    const auto is_fin = [](const std::string& name) {
+      return name.rfind("fin ", 0) == 0 || name.rfind("wing ", 0) == 0;
+    };
     if (is_fin(a.name) != is_fin(other)) pair["align"] = false;
     if (a.name.find("hand") != std::string::npos || other.find("hand") != std::string::npos) pair["limb"] = "arm";
     const double confidence = std::min(a.confidence, b.confidence) * (same_kind ? 1 : 0.6);
@@ -176,8 +209,8 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
     feet = feet || candidate.pair.contains("foot");
   }
   for (const Landmark& b : to.list) {
-    const std::string other = counterpart(b.name, to, from);
-    if (other.empty()) out.notes.push_back("only " + short_name(target) + " has \"" + b.name + "\"");
+    if (std::find(taken.begin(), taken.end(), b.name) == taken.end())
+      out.notes.push_back("only " + short_name(target) + " has \"" + b.name + "\"");
   }
   if (out.pairs.size() < 3) {
     throw std::runtime_error("too little in common to propose pairs: " + short_name(source) + " has " + names_of(from) +
@@ -198,6 +231,11 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
       {"source_axes", axes_json(from.axes)},
       {"target_axes", axes_json(to.axes)},
       {"pairs", pairs}};
+  if (from.known.swims() || to.known.swims()) {
+    out.file["settings"] = {{"ground", false}};
+    out.notes.push_back(short_name(from.known.swims() ? source : target) +
+                        " has fins and no legs: there is no ground (\"settings\": {\"ground\": false})");
+  }
   return out;
 }
 

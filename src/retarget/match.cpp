@@ -195,7 +195,17 @@ void Matcher::add_limb(const Chain& a, const Chain& b, Aligning how, bool standi
   if (toe_a && toe_b) add_next(*toe_a, *toe_b, Role::toe, {});
 }
 
-// Arms by number. Legs from behind; the front legs of an animal follow arms where there are no more legs.
+Role flapping_partner(const Character& source, const Character& target, Side side, Role role) {
+  const auto has = [&](const Character& c, Role r) { return find_chain(c, r, side, 0) != nullptr; };
+  if (has(source, role) || role == Role::leg) return role;
+  // One limb of the source leads no two of the target.
+  for (const Role by : {Role::wing, Role::fin})
+    if (has(source, by) && !has(target, by)) return role == Role::arm || !has(target, Role::arm) ? by : Role::other;
+  return Role::other;
+}
+
+// Arms by number. Legs from behind; the front legs of an animal follow arms where there are no more legs. Arms flap as
+// wings or fins where the source has no arms, and these as one another.
 void Matcher::add_limbs() {
   const auto count = [](const Character& c, Role role, Side side) {
     std::uint32_t found = 0;
@@ -215,6 +225,10 @@ void Matcher::add_limbs() {
       add(Role::arm, k, Role::arm, k, r.source.upright == r.target.upright ? Aligning::segments : Aligning::whole);
     if (ta == 0 && sa > 0 && tl > sl) add(Role::arm, 0, Role::leg, 0, Aligning::none);
     if (sa == 0 && ta > 0 && sl > tl) add(Role::leg, 0, Role::arm, 0, Aligning::none);
+    for (const Role to : {Role::arm, Role::wing, Role::fin}) {
+      const Role by = flapping_partner(s.character, t.character, side, to);
+      if (by != to && by != Role::other && !(to == Role::arm && sl > tl)) add(by, 0, to, 0, Aligning::whole);
+    }
   }
 }
 

@@ -54,6 +54,11 @@ struct RetargetSide {
   const double* rest = nullptr;
 };
 
+// The part of the source that leads the arm, wing or fin of the target on one side: the same part, else a wing or a fin
+// if the target has none of that kind. other: there is none. Arms do not lead wings and fins: they rest spread where
+// arms hang, so that a walk would fold them down.
+Role flapping_partner(const Character& source, const Character& target, Side side, Role role);
+
 enum class ScaleSource : std::int32_t { given, legs, hips, height };
 const char* scale_source_name(ScaleSource source) noexcept;
 

@@ -162,7 +162,6 @@ std::size_t nearest_below_head(const Body& body, const Vector<Index>& path, Inde
   std::size_t nearest = 0;
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     if (path[k] == carrier) return k;
-    if (!body.is_central(path[k])) continue;  // a head may hang on a collar
     const auto apart = [&](std::size_t i) { return norm(body.pivots[at(path[i])] - body.pivots[at(carrier)]); };
     if (apart(k) < apart(nearest)) nearest = k;
   }
@@ -238,7 +237,7 @@ Role central_role(const Body& body, Index joint, double hind_place) {
     default:
       return Role::other;
   }
-  if (on_head || !body.is_central(joint)) return Role::other;
+  if (on_head) return Role::other;
   const Index p = body.carriers[at(joint)];
   if (p >= 0 && (body.roles[at(p)] == Role::tail)) return Role::tail;
   if (body.head == body.root) return Role::spine;
@@ -276,15 +275,21 @@ void take_declared_roles(Body& body) {
   }
 }
 
-// The feet of a body are at the ground. Worn and held parts do not carry it, such as a pickaxe that hangs lower.
+// What a body wears or holds has no role. Like a tail or a wing it may hang lower than the feet.
+bool hangs(Role role) {
+  return role == Role::other || role == Role::tail || role == Role::wing || role == Role::fin || role == Role::ear ||
+         role == Role::antenna;
+}
+
+// A body stands on its feet, and not on what hangs on it.
 void find_ground(Body& body) {
   double feet = 1e300, trunk = 1e300;
   for (std::size_t v = 0; v < body.points.size(); ++v) {
     const Index owner = body.owners[v];
-    if (owner < 0 || !body.kept[at(owner)]) continue;
+    if (owner < 0) continue;
     const Role role = body.roles[at(owner)];
     const bool arm = role == Role::arm || role == Role::hand || role == Role::finger;
-    if (role == Role::other || (arm && body.trunk > upright_trunk)) continue;
+    if (hangs(role) || (arm && body.trunk > upright_trunk)) continue;
     double& low = role == Role::leg || role == Role::foot || role == Role::toe ? feet : trunk;
     low = std::min(low, dot(body.points[v], body.up));
   }

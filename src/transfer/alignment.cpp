@@ -42,15 +42,18 @@ Mat3 checked_axes(const double (&rows)[9], const char* side) {
   return best_rotation(axes, Quaternion()).toRotationMatrix();
 }
 
-double ground_height(const RestSide& side) noexcept {
+double ground_height(const RestSide& side, double feet, double trunk) noexcept {
+  const double limit = feet < trunk ? feet - stands : -no_height;
   double low = no_height;
-  for (const Vec3& p : side.mesh->positions) low = std::min(low, dot(p, side.up()));
+  for (const Vec3& p : side.mesh->positions) {
+    const double height = dot(p, side.up());
+    if (height >= limit) low = std::min(low, height);
+  }
   return low;
 }
 
-double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) noexcept {
+double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns, double ground) noexcept {
   const std::size_t width = side.field.size() / side.area.size();
-  const double ground = ground_height(side);
   const Vec3 up = side.up();
   double sum = 0;
   std::int32_t legs = 0;

@@ -32,12 +32,14 @@ struct RestSide {
 // rows are a right-handed frame within axes_tolerance.
 Mat3 checked_axes(const double (&rows)[9], const char* side);
 
-// Returns the height of the lowest vertex along up, in inner coordinates.
-double ground_height(const RestSide& side) noexcept;
+// Returns the height of the ground along up, in inner coordinates: of the lowest vertex. feet, trunk: heights of the
+// lowest vertices of their regions, or no_height. A body whose feet are below its trunk stands on them, and vertices
+// that hang too far below to let feet stand (a cape, a tail, scenery) are no ground.
+double ground_height(const RestSide& side, double feet, double trunk) noexcept;
 
-// Returns the mean leg length on one surface, in inner coordinates. foot_columns: columns of RestSide::field that
-// belong to feet. If a leg has no vertex in any window, it returns 0.
-double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) noexcept;
+// Returns the mean leg length on one surface over the ground, in inner coordinates. foot_columns: columns of
+// RestSide::field that belong to feet. If a leg has no vertex in any window, it returns 0.
+double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns, double ground) noexcept;
 
 // Finds the rest direction of the limb at the region of field `column`; its length is the length of the outer part of
 // the limb. Returns false when no vertex has a field value in the window.

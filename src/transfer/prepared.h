@@ -79,6 +79,7 @@ struct Transfer::Prepared {
         source_lows(&memory),
         target_lows(&memory),
         touch(&memory),
+        source_hangs(&memory),
         sinks(&memory),
         rises(&memory),
         needs(&memory),
@@ -144,7 +145,8 @@ struct Transfer::Prepared {
   // cluster's source vertices over the ground, at rest and now. The array target_lows holds the lowest height of the
   // cluster's target vertices. touch: the cluster's area if the cluster touches the ground now but not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
-  double source_low = 0;              // lowest height of all source vertices
+  double source_low = 0;              // lowest height of the source vertices that do not hang below its feet at rest
+  Vector<std::uint8_t> source_hangs;  // per source vertex: 1 if it does
   Vector<std::uint8_t> sinks;         // per target vertex: 1 if it may stay under the ground
   Vector<double> rises;               // per cluster: how far it is raised
   Vector<double> needs, forces;       // per vertex: how far it must rise, and the force that raises it

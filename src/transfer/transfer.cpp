@@ -205,14 +205,24 @@ void Transfer::prepare_alignment(Prepared& p) const {
   }
   for (std::size_t h = 0; h < width; ++h) p.confidence[h] = owned[h] > 0 ? p.confidence[h] / owned[h] : 0.0;
 
-  p.source_ground = ground_height(source);
-  p.target_ground = ground_height(target);
+  const auto ground = [&](const RestSide& side, const auto& regions) {
+    double lows[2] = {no_height, no_height};  // feet, trunk
+    for (const std::uint32_t number : numbers_) {
+      const std::uint32_t flags = flags_[number];
+      if (!(flags & (HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NECK))) continue;
+      double& low = lows[flags & HF_PAIR_FOOT ? 0 : 1];
+      low = std::min(low, lowest(regions.region(number), side.mesh->positions.data(), side.up()));
+    }
+    return ground_height(side, lows[0], lows[1]);
+  };
+  p.source_ground = ground(source, source_);
+  p.target_ground = ground(target, target_);
   p.scale = 1;
   if (options_.scale > 0) {
     p.scale = options_.scale * source_core_->mesh.scale / target_core_->mesh.scale;
   } else if (!feet.empty()) {
-    const double of_source = leg_length(source, {feet.data(), feet.size()}),
-                 of_target = leg_length(target, {feet.data(), feet.size()});
+    const double of_source = leg_length(source, {feet.data(), feet.size()}, p.source_ground),
+                 of_target = leg_length(target, {feet.data(), feet.size()}, p.target_ground);
     if (of_source > least_leg && of_target > least_leg) p.scale = of_target / of_source;
   }
 }
@@ -259,9 +269,9 @@ void Transfer::prepare_anchors(Prepared& p) const {
   }
 }
 
-// Finds the vertices that may sink: limbs that the caller names, thin tails, and thin parts that no pair moves. Feet
-// never do by themselves. Nor do thin parts around a region that stands or touches, such as fingers, but what a hand
-// holds does.
+// Finds the vertices that may sink: limbs that the caller names, thin tails, thin parts that no pair moves, and what
+// hangs below the feet at rest. Feet never do by themselves. Nor do thin parts around a region that stands or touches,
+// such as fingers, but what a hand holds does.
 void Transfer::find_sinking(Prepared& p) {
   const std::size_t width = numbers_.size(), n = at(target_core_->size());
   const Geometry& geometry = target_factor_->geometry->unlinked();
@@ -280,6 +290,7 @@ void Transfer::find_sinking(Prepared& p) {
     const bool around = row[h] > handle_share && reached[at(geometry.mesh.component[v])];
     const bool leads = (flags & HF_PAIR_FOOT) || ((flags & leading) && around);
     p.sinks[v] = (flags & HF_PAIR_SINKS) ||
+                 dot(up_of(target_axes_), target_core_->mesh.positions[v]) < p.target_ground ||
                  (thin_[v] && !leads && (idle[v] || ((flags & HF_PAIR_TAIL) && row[h] > limb_window.low)));
   }
 }
@@ -312,7 +323,9 @@ void Transfer::prepare_ground(Prepared& p) const {
                                  }
                                });
   const Vec3 up = up_of(source_axes_);
+  p.source_hangs.resize(mesh.positions.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    p.source_hangs[v] = dot(up, mesh.positions[v]) < p.source_ground;
     double& low = p.rest_lows[at(p.source_owner[v])];
     low = std::min(low, p.scale * (dot(up, mesh.positions[v]) - p.source_ground));
   }

@@ -1,6 +1,7 @@
 // Keeps the target above the ground: the regions that stand or touch, and the rest of the surface.
 //
-// The ground is the height of the lowest point of the rest shape. A target may sink as deep as its source, scaled.
+// The ground is the height of the lowest point of the rest shape. Where feet are known it is under the feet: what hangs
+// lower may sink (ground_height). A target may sink as deep as its source, scaled.
 // Regions that stand or touch are held while the translations are solved (hold_regions). Two rules move the rest:
 // - lie_down: a lying source touches the ground with clusters that are far above it at rest. The same clusters of the
 //   target should touch. So the goals of the anchored regions move along up, by the mean difference of the heights.
@@ -64,7 +65,7 @@ double Transfer::lying_share(Prepared& p) const noexcept {
   std::fill(p.source_lows.begin(), p.source_lows.end(), no_height);
   for (std::size_t v = 0; v < p.posed.size(); ++v) {
     const double height = dot(p.posed[v], up);
-    p.source_low = std::min(p.source_low, height);
+    if (!p.source_hangs[v]) p.source_low = std::min(p.source_low, height);
     double& low = p.source_lows[at(p.source_owner[v])];
     low = std::min(low, height);
   }

@@ -137,7 +137,8 @@ namespace Hf
         /// <summary>a joint of the given skeleton: an end, or where it branches. Or a head, hand or foot that is no tip of
         /// the surface</summary>
         Joint = Constants.HF_HANDLE_REASON_JOINT,
-        /// <summary>the trunk of the largest component: the chest of a biped; pinned, inside the surface</summary>
+        /// <summary>The trunk of the largest component: the chest of a biped; pinned, inside the surface. With a skeleton of
+        /// an upright body all that chest and shoulders move is held, up to the neck</summary>
         Middle = Constants.HF_HANDLE_REASON_MIDDLE,
     }
 
@@ -6271,8 +6272,9 @@ namespace Hf
         /// foot follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the
         /// source, scaled, except the vertices of Transfer.Sinking. A part that would sink bends up. The ground
         /// does not move regions that you hold. A lying target rests on the parts that the source rests on. A rigid
-        /// motion of the whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off
-        /// switches them off.
+        /// motion of the whole source is copied unchanged. All rules of the ground come in continuously. The ground
+        /// is under the feet of each body at rest, and what hangs lower is none: a cape, a tail, scenery. Without
+        /// feet, or where the trunk is below them, it is the lowest vertex. Ground.Off switches it off.
         ///
         /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
         /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a

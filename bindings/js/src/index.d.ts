@@ -2614,7 +2614,9 @@ export interface Transfer extends Handle {
    * follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the source, scaled,
    * except the vertices of Transfer.sinking. A part that would sink bends up. The ground does not move regions
    * that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the whole source
-   * is copied unchanged. All rules of the ground come in continuously. HF_GROUND_OFF switches them off.
+   * is copied unchanged. All rules of the ground come in continuously. The ground is under the feet of each body
+   * at rest, and what hangs lower is none: a cape, a tail, scenery. Without feet, or where the trunk is below
+   * them, it is the lowest vertex. HF_GROUND_OFF switches it off.
    *
    * sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
    * holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a position of

@@ -209,7 +209,9 @@ class HandleReason(IntEnum):
     """a joint of the given skeleton: an end, or where it branches. Or a head, hand or foot that is no tip of the surface
     """
     MIDDLE = _raw.HF_HANDLE_REASON_MIDDLE
-    """the trunk of the largest component: the chest of a biped; pinned, inside the surface"""
+    """The trunk of the largest component: the chest of a biped; pinned, inside the surface. With a skeleton of an
+    upright body all that chest and shoulders move is held, up to the neck
+    """
 
 
 class Base(IntEnum):
@@ -3476,7 +3478,9 @@ class Transfer(Object):
         follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the source, scaled,
         except the vertices of Transfer.sinking. A part that would sink bends up. The ground does not move regions
         that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the whole source
-        is copied unchanged. All rules of the ground come in continuously. Ground.OFF switches them off.
+        is copied unchanged. All rules of the ground come in continuously. The ground is under the feet of each body
+        at rest, and what hangs lower is none: a cape, a tail, scenery. Without feet, or where the trunk is below
+        them, it is the lowest vertex. Ground.OFF switches it off.
 
         source_positions: (source.vertex_count, 3) of float or double: the posed source, its own vertex order
         hold_pairs: (hold_count,) each pair at most once A hold puts the target region of a pair exactly at a position

@@ -4108,7 +4108,9 @@ impl Transfer {
     /// follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the source, scaled,
     /// except the vertices of `Transfer::sinking`. A part that would sink bends up. The ground does not move regions that
     /// you hold. A lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
-    /// unchanged. All rules of the ground come in continuously. [`raw::HF_GROUND_OFF`] switches them off.
+    /// unchanged. All rules of the ground come in continuously. The ground is under the feet of each body at rest, and
+    /// what hangs lower is none: a cape, a tail, scenery. Without feet, or where the trunk is below them, it is the
+    /// lowest vertex. [`raw::HF_GROUND_OFF`] switches it off.
     ///
     /// source_positions: `[source.vertex_count x 3]` of float or double: the posed source, its own vertex order
     /// out: `[target.vertex_count x 3]` of float or double

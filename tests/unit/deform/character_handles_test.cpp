@@ -304,7 +304,7 @@ TEST(CharacterHandles, TheTrunkIsWhatTheSpineMovesAndANeckIsFreeBesideAHead) {
     const Found found = propose(host);
     std::set<uint32_t> spine, parts;
     for (uint32_t j = 0; j < host.names.size(); ++j) {
-      if (found.joints[j].role == HF_ROLE_SPINE) spine.insert(j);
+      if (found.joints[j].role == HF_ROLE_SPINE || found.joints[j].role == HF_ROLE_SHOULDER) spine.insert(j);
     }
     uint32_t trunk = HF_NO_INDEX;
     for (uint32_t i = 0; i < found.list.size(); ++i) {
@@ -326,6 +326,55 @@ TEST(CharacterHandles, TheTrunkIsWhatTheSpineMovesAndANeckIsFreeBesideAHead) {
       EXPECT_FALSE(in_trunk && in_part);
     }
   }
+}
+
+// The head draws its neck out, and neither chest nor shoulders.
+TEST(CharacterHandles, AHeadThatIsDraggedLeavesTheChestOfAnUprightBody) {
+  const Host host("biped");
+  const hf::Surface surface = host.surface();
+  const Found found = propose(host, surface);
+  const uint32_t head = found.of_role(HF_ROLE_HEAD, HF_SIDE_MIDDLE);
+  ASSERT_NE(head, HF_NO_INDEX);
+  std::set<uint32_t> chest, neck;
+  for (uint32_t j = 0; j < host.names.size(); ++j) {
+    const int32_t role = found.joints[j].role;
+    if (role == HF_ROLE_SHOULDER) chest.insert(j);
+    if (role == HF_ROLE_NECK || role == HF_ROLE_HEAD) neck.insert(j);
+    if (role == HF_ROLE_NECK && found.joints[host.parents[j]].role == HF_ROLE_SPINE) chest.insert(host.parents[j]);
+  }
+  ASSERT_GE(chest.size(), 1u);
+  hf::Pose pose(surface);
+  std::vector<uint32_t> counts, vertices;
+  uint32_t number = HF_NO_INDEX;
+  for (uint32_t i = 0; i < found.list.size(); ++i) {
+    if (!found.list[i].pinned && i != head) continue;
+    if (i == head) number = static_cast<uint32_t>(counts.size());
+    const std::vector<uint32_t> own = found.region(i);
+    counts.push_back(static_cast<uint32_t>(own.size()));
+    vertices.insert(vertices.end(), own.begin(), own.end());
+  }
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
+  desc.handle_count = static_cast<uint32_t>(counts.size());
+  desc.region_counts = counts.data();
+  desc.region_vertices = vertices.data();
+  std::vector<uint32_t> numbers(counts.size());
+  ASSERT_EQ(hf_pose_add_handles(pose.get(), &desc, numbers.data()), HF_OK);
+  number = numbers[number];
+  ASSERT_EQ(hf_pose_set_free_rotations(pose.get(), 1, &number, 1), HF_OK);
+  ASSERT_EQ(hf_pose_set_following(pose.get(), 1, &number, found.list[head].following), HF_OK);
+  const hf_transform pull = {{0, 0, 0, 0}, {0, 0.3, 0}};
+  ASSERT_EQ(hf_pose_set_transform(pose.get(), number, &pull), HF_OK);
+  std::vector<float> posed(host.positions.size());
+  ASSERT_EQ(hf_deform(pose.get(), posed.data(), nullptr), HF_OK);
+  double rise = 0, count = 0;
+  for (uint32_t v = 0; v < host.vertex_count(); ++v) {
+    if (host.weight(v, chest) < 0.6 || host.weight(v, neck) > 0) continue;
+    rise += static_cast<double>(posed[3 * v + 1]) - static_cast<double>(host.positions[3 * v + 1]);
+    count += 1;
+  }
+  ASSERT_GT(count, 20);
+  std::printf("%.0f vertices of the chest rise by %.5f of the drag\n", count, rise / count / 0.3);
+  EXPECT_LT(rise / count, 0.005 * 0.3);
 }
 
 // A knot of the tail is a piece of its own, with two ends.

@@ -369,6 +369,50 @@ TEST(Lengths, TheGroundIsUnderTheFeet) {
   EXPECT_NEAR(found.ground, low, 1e-6);
 }
 
+// A body that stands on its hands may hold bars. It stands on these, though its feet are known: they are above it.
+TEST(Lengths, ABodyOnItsHandsStandsOnWhatTheyHold) {
+  Rig rig = make_biped("none", {});
+  for (Vec3& p : rig.points) p.y = -p.y;
+  double low = 0;
+  for (const Vec3& p : rig.points) low = std::min(low, p.y);
+  for (RigJoint& j : rig.joints) {
+    j.pivot.y = -j.pivot.y;
+    j.declared = j.role == Role::leg || j.role == Role::foot || j.role == Role::toe;
+  }
+  for (const Side side : {Side::left, Side::right}) {
+    const auto hand = std::find_if(rig.joints.begin(), rig.joints.end(),
+                                   [&](const RigJoint& j) { return j.role == Role::hand && j.side == side; });
+    ASSERT_NE(hand, rig.joints.end());
+    const double x = hand->pivot.x;
+    const int bar = rig.add("", static_cast<int>(hand - rig.joints.begin()), hand->pivot, Role::other);
+    rig.joints[static_cast<std::size_t>(bar)].judged = false;
+    rig.add_block(bar, {x - 0.03, low - 0.3, -0.03}, {x + 0.03, low + 0.1, 0.03});
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  hf_inner::CharacterInput input = placed.input();
+  const double up[] = {0, 1, 0};
+  input.up = up;
+  const Character found = know_character(input, memory);
+  ASSERT_GT(found.up.y, 0.9) << why(found);
+  EXPECT_NEAR(found.ground, low - 0.3, 1e-6) << why(found);
+}
+
+// Wings that hang, as a tail may, reach lower than the feet and carry nothing.
+TEST(Lengths, WingsThatHangAreNoGround) {
+  Rig rig = make_beast("bird", true);
+  for (const double s : {1.0, -1.0}) rig.turn(rig.find(s > 0 ? "Wing1.L" : "Wing1.R"), {0, 0, 1}, s * -80);
+  double low = 0;
+  for (const Vec3& p : rig.points) low = std::min(low, p.y);
+  ASSERT_LT(low, -0.2);
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+  EXPECT_NEAR(found.ground, 0, 1e-6);
+  EXPECT_NEAR(found.hip_height, 0.9, 0.01);
+}
+
 // The ends of a scarf, which hang on a knot beside the neck.
 TEST(Limbs, APairOnSomethingAsideDoesNotSayWhereTheNeckBegins) {
   Rig rig = make_biped("none", {});

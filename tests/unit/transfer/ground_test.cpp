@@ -196,6 +196,64 @@ std::vector<int32_t> hold_a_rod(Body& bull, const World& world, Vec3 from, doubl
   return bull.inner_of({first, first + 1, first + 2, first + 3, first + 4, first + 5, first + 6, first + 7});
 }
 
+// A slab under a body, a piece of its own that reaches lower than the feet: a cape, or scenery.
+void add_slab(Body& body, const World& world) {
+  const auto first = static_cast<uint32_t>(body.mesh.positions.size());
+  const double box = body.core->mesh.scale, low = lowest_of(body.rest()) - 0.1 * box;
+  for (uint32_t i = 0; i < 8; ++i)
+    body.mesh.positions.emplace_back((i & 1 ? 0.05 : -0.05) * box, low + (i & 2 ? 0.3 * box : 0),
+                                     (i & 4 ? 0.05 : -0.05) * box);
+  for (const uint32_t corner :
+       {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5})
+    body.mesh.triangles.push_back(first + corner);
+  body.build(world);
+}
+
+// The ground is under the feet, though something hangs lower: feet of the source stand, and the target does not sink.
+TEST(TransferGround, WhatHangsBelowTheFeetIsNoGround) {
+  const Animals& a = animals();
+  Body horse = a.horse, bull = a.bull;
+  const double ground = lowest_of(bull.rest());
+  add_slab(horse, a.world);
+  add_slab(bull, a.world);
+  const Pairs& pairs = a.pairs;  // a piece at the end of the list leaves the numbers of the others
+  ASSERT_EQ(lowest_of(pairs.source[2], horse.rest()), lowest_of(pairs.source[2], a.horse.rest()));
+  ASSERT_EQ(lowest_of(pairs.target[2], bull.rest()), lowest_of(pairs.target[2], a.bull.rest()));
+  hf_inner::Transfer transfer(horse.core, bull.core, {});
+  add(transfer, pairs.inputs());
+  const std::vector<Vec3> still = frame_of(transfer, horse.rest());
+  for (const double degrees : {25.0, 40.0}) {
+    std::vector<Vec3> posed = horse.rest();
+    const double feet = lowest_of(pairs.source[2], posed), box = horse.core->mesh.scale;
+    const Vec3 middle = centroid_of(horse, posed);
+    for (Vec3& p : posed) {
+      const double share = smooth(0.15 * box, 0.3 * box, p.y - feet);
+      p = middle + hf_inner::rotate(hf_inner::exponential({0, share * degrees * pi / 180, 0}), p - middle);
+    }
+    const std::vector<Vec3> out = frame_of(transfer, posed);
+    for (size_t foot = 2; foot < 6; ++foot) {
+      Vec3 off = centre_of(pairs.target[foot], out) - centre_of(pairs.target[foot], still);
+      off.y = 0;
+      EXPECT_LT(hf_inner::norm(off) / a.box, 1e-3) << pairs.names[foot] << " at " << degrees << " degrees";
+    }
+  }
+  // the trunk sinks between the legs
+  std::vector<Vec3> posed = horse.rest();
+  const double feet = lowest_of(pairs.source[2], posed), box = horse.core->mesh.scale;
+  for (Vec3& p : posed) {
+    const double height = p.y - feet;
+    if (height > 0) p.y = feet + std::max(0.25 * height, height - 0.4 * box * smooth(0, 0.3 * box, height));
+  }
+  const std::vector<Vec3> out = frame_of(transfer, posed);
+  double low = 1e300;
+  for (size_t v = 0; v < out.size(); ++v)
+    if (!transfer.sinking()[v]) low = std::min(low, out[v].y);
+  EXPECT_LT((ground - low) / bull.core->mesh.scale, 2e-3);
+  size_t free = 0;  // but for what hangs there at rest
+  for (size_t v = 0; v < out.size(); ++v) free += transfer.sinking()[v] && bull.rest()[v].y < ground - 1e-6;
+  EXPECT_EQ(free, 4u);
+}
+
 TEST(TransferGround, ThinPartsThatNoPairMovesAndTailsMaySink) {
   const Animals& a = animals();
   Body bull = creature("bull", 1600, a.world);
