@@ -32,7 +32,7 @@ const shortGlue = {
 const ownCopies = {
   name: 'own-copies',
   setup: ({ onResolve }) =>
-    onResolve({ filter: /\/(normals|model_error)\.js$/ }, ({ path, importer, resolveDir }) =>
+    onResolve({ filter: /\/(normals|model_error|stiffness)\.js$/ }, ({ path, importer, resolveDir }) =>
       /(worker\w*|_mesh|mesh_files)\.js$/.test(importer) ? { path: join(resolveDir, path), suffix: '?worker' } : null,
     ),
 };

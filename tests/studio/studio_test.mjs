@@ -7,6 +7,7 @@ const stories = [
   'mirror',
   'keys',
   'field',
+  'brush',
   'weights',
   'quads',
   'detail',

@@ -16,7 +16,7 @@ const TREE_APART = 30000;
 /** A drag that pauses for so long comes to rest. Shorter asks between two moves of a hand, longer is seen. */
 const PAUSE_MS = 80;
 
-const empty = { handles: [], lengths: false, sites: [], detail: null, keys: [], pins: [] };
+const empty = { handles: [], lengths: false, sites: [], detail: null, keys: [], pins: [], stiffness: null };
 
 export class App {
   constructor(toolClasses, samples) {
@@ -281,12 +281,15 @@ export class App {
     this.shownState = state;
     const wanted = [];
     const moving = this.moving && way !== 'follow';
-    const { handles, lengths, detail } = state;
+    const { handles, lengths, detail, stiffness } = state;
     const same = ['handles', 'lengths', 'detail'].every((part) => shown?.[part] === state[part]);
-    if (exact || moving || !same) {
+    const stroke = shown?.stiffness !== stiffness;
+    if (stroke && way === 'follow') this.moving = true;
+    // a stroke does not move a body at rest: its pose follows when the stroke ends
+    if (exact || moving || !same || (stroke && (way !== 'follow' || this.tools.pose.posed(handles)))) {
       this.moving = way === 'follow';
       wanted.push(
-        this.client.frame('shape', { handles, lengths, detail, way }).then((answer) => {
+        this.client.frame('shape', { handles, lengths, detail, stiffness, way }).then((answer) => {
           if (!answer || this.skin !== skin) return;
           this.shape = { positions: answer.positions, normals: answer.normals };
           this.told = answer.told;
@@ -302,15 +305,16 @@ export class App {
         }),
       );
     }
-    if (state.sites.length && (exact || shown?.sites !== state.sites))
+    if (state.sites.length && (exact || stroke || shown?.sites !== state.sites))
       wanted.push(
-        this.client.frame('field', { sites: state.sites, at: exact }).then((answer) => {
+        this.client.frame('field', { sites: state.sites, stiffness, at: exact }).then((answer) => {
           if (!answer || this.skin !== skin) return;
           this.fieldTold = answer.told;
           this.figures.field = answer.told.milliseconds;
           skin.setField(answer.values, answer.reached);
         }),
       );
+    if (stroke && !wanted.length) wanted.push(this.client.frame('stiffen', { stiffness }));
     try {
       await Promise.all(wanted);
     } catch (error) {
@@ -322,6 +326,7 @@ export class App {
   // ---- tools and panels
   #rail(toolClasses) {
     for (const Tool of toolClasses) {
+      if (!Tool.icon) continue; // a part of other tools
       const tab = make('button', {
         type: 'button',
         role: 'tab',
@@ -364,7 +369,8 @@ export class App {
       this.tool?.leave?.();
     }
     this.tool = this.tools[key];
-    for (const tab of $('rail').children) tab.setAttribute('aria-selected', String(tab.id === `tool-${key}`));
+    const shown = this.tool.home ?? key;
+    for (const tab of $('rail').children) tab.setAttribute('aria-selected', String(tab.id === `tool-${shown}`));
     if (!this.skin) return;
     this.legend(null);
     this.timeline.draw();

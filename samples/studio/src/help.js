@@ -9,6 +9,7 @@ export function help(app) {
         ['Pose', 'drag a dot; tap it for its rings; tap the body for a new one'],
         ['Field', 'tap the body for a site; drag it'],
         ['Detail', 'draw a loop around a part'],
+        ['Stiffness', 'Stiffness brush in Pose or Field; draw on the body'],
       ]
     : [
         ['Turn', 'drag beside the body, right drag, or two fingers'],
@@ -17,6 +18,7 @@ export function help(app) {
         ['Views', 'Home, F frames; 1, 3, 7 of the number pad or with Shift: front, side, top'],
         ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'],
         ['Pose', '[ and ] turn a handle, P pins it, K sets a key'],
+        ['Stiffness', 'B takes the brush and lays it down; Enter paints, [ and ] change its radius, E erases'],
         ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'],
         ['Save, open', 'Ctrl+S, Ctrl+O'],
         ['Tools', '1 to 6'],

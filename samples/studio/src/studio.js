@@ -18,6 +18,7 @@ import {
 import { App } from './app.js';
 import { Gizmo } from './gizmo.js';
 import { help } from './help.js';
+import { colourAt } from './legend.js';
 import { bonesOf, influencesOf, readModel, writeGlb } from './model.js';
 import { middleOf, mirrorChoice } from './mirror.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
@@ -26,6 +27,8 @@ import { lengthOf, localsOf, playedAt, worldsAt } from './timeline.js';
 import { FieldTool } from './tools/field.js';
 import { PoseTool } from './tools/pose.js';
 import { Session } from './session.js';
+import { circleOf } from './circle.js';
+import { pack, unpack } from './stiffness.js';
 import { $, button, card, choice, facts, make, ms, say, slider, touched, whole } from './ui.js';
 import { toolKey, viewButtons, viewKey } from './views.js';
 
@@ -36,6 +39,7 @@ Object.assign(kit, { LineSegments });
 Object.assign(kit, { Gizmo, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Quaternion, Vector3, worldsAt });
 Object.assign(kit, { bonesOf, influencesOf, readModel, writeGlb, skinnedGlb });
 Object.assign(kit, { normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt });
+Object.assign(kit, { circleOf, colourAt, pack, unpack });
 const later = (key, title, icon, load) => ({ key, title, icon, load: async () => (await load()).tool(kit) });
 const laterTools = [
   later('transfer', 'Transfer', 'M4 8h13l-3-3M20 16H7l3 3', () => import('./tools/transfer.js')),
@@ -52,6 +56,7 @@ const laterTools = [
     () => import('./tools/quads.js'),
   ),
   later('detail', 'Detail', 'M3 15c2-6 4 3 6-2s3-4 5 0 4-3 7-1M3 20h18', () => import('./tools/detail.js')),
+  later('brush', 'Stiffness', null, () => import('./tools/brush.js')),
 ];
 
 const samples = ['horse', 'bull', 'biped'];
@@ -134,6 +139,7 @@ async function start() {
     else if (key === '?') help(app);
     else if (viewKey(app, event)) event.preventDefault();
     else if (key === 'k' && app.skin && app.tool === app.tools.pose && app.state.handles.length) app.timeline.setKey();
+    else if (key === 'b' && app.skin) $(app.tool === app.tools.brush ? 'done' : 'brush')?.click();
     else if (toolKey(event) !== null) $('rail').children[toolKey(event)]?.click();
   });
   const params = new URLSearchParams(location.search);

@@ -16,6 +16,18 @@ export function make(tag, attributes = {}, ...children) {
 export const button = (text, onclick, attributes = {}) =>
   make('button', { type: 'button', onclick, ...attributes }, text);
 
+/** From the tool that is open to the stiffness brush, which leads back to it. */
+export const brushButton = (app) =>
+  button(
+    'Stiffness brush',
+    async () => {
+      const home = app.tool.constructor.key;
+      await app.need('brush').then((brush) => (brush.home = home), () => {}); // what does not come is said by use()
+      await app.use('brush');
+    },
+    { id: 'brush', title: 'B: paints where the body bends less, or more, than the rest' },
+  );
+
 /** A slider with its value beside the name; onmove while it moves, onset at its end. words: of a value. */
 export function slider(
   name,

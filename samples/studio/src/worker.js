@@ -6,6 +6,7 @@ import { readMesh } from './mesh_files.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { proposalsOf, sentenceOf, surfaceOf } from './worker_open.js';
 import { poseOf } from './worker_pose.js';
+import { stiffnessOf } from './worker_stiffness.js';
 import { fieldOf } from './worker_field.js';
 import { awayOf, detailOf } from './worker_detail.js';
 import { inTwo } from './worker_parts.js';
@@ -79,6 +80,7 @@ const tasks = {
     const { proposals, regions } = proposalsOf(hf, surface, { positions, triangles, skeleton }, notes);
     closeBody();
     body = Object.assign(next, { proposals, regions });
+    body.stiffness = stiffnessOf(body);
     body.pose = poseOf(body);
     body.field = fieldOf(body);
     body.detail = detailOf(body);
@@ -94,8 +96,9 @@ const tasks = {
     return treeOf(positions, triangles);
   },
   /** Positions and normals of the body under handles and detail. */
-  shape({ handles, detail, way, lengths }) {
+  shape({ handles, detail, way, lengths, stiffness }) {
     const begin = performance.now();
+    body.stiffness.hold(stiffness, way === 'exact');
     const positions = body.pose.deform(handles, way, lengths);
     const told = body.pose.told();
     told.detail = detail ? body.detail.apply(positions, detail) : null;
@@ -117,11 +120,22 @@ const tasks = {
     body.detail.addSource(name, positions, triangles);
     return treeOf(positions, triangles);
   },
-  field({ sites, at }) {
+  field({ sites, at, stiffness }) {
     const begin = performance.now();
+    body.stiffness.hold(stiffness, at);
     const { values, reached, told } = body.field.solve(sites, at);
     told.milliseconds = performance.now() - begin;
     return [{ values, reached, told }, [values.buffer, ...(reached ? [reached.buffer] : [])]];
+  },
+  /** A stroke of the brush that moves nothing yet. */
+  stiffen({ stiffness }) {
+    body.stiffness.hold(stiffness);
+    return [null, []];
+  },
+  /** What the brush walks on. */
+  net() {
+    const net = body.stiffness.net(body.triangles);
+    return [net, Object.values(net).map(({ buffer }) => buffer)];
   },
   extremities() {
     return [body.surface.findExtremities().map(({ vertex, position }) => ({ vertex, position })), []];
@@ -210,7 +224,7 @@ async function treeOf(positions, triangles) {
 
 function closeBody() {
   if (!body) return;
-  for (const part of [body.transfer, body.pose, body.field, body.detail, body.surface]) part?.close();
+  for (const part of [body.transfer, body.pose, body.field, body.detail, body.stiffness, body.surface]) part?.close();
   body = null;
 }
 
@@ -223,7 +237,7 @@ async function turn() {
 }
 
 /** What the first file of the library does; all other tasks wait for the rest of it. */
-const early = new Set(['read', 'open', 'tree', 'shape', 'grab', 'field', 'extremities', 'memory', 'rest', 'quadsOpen']);
+const early = new Set(['read', 'open', 'tree', 'shape', 'grab', 'field', 'extremities', 'memory', 'rest', 'quadsOpen', 'stiffen', 'net']);
 
 // Requests are answered in the order they came, also where one of them waits.
 let last = Promise.resolve();
@@ -232,7 +246,7 @@ self.onmessage = ({ data: { id, task, args } }) => {
   last = last.then(async () => {
     asked = performance.now();
     try {
-      if (!early.has(task) || args?.detail || args?.lengths || args?.handles?.some(({ limb }) => limb)) await rest();
+      if (!early.has(task) || args?.detail || args?.lengths || args?.stiffness || args?.handles?.some(({ limb }) => limb)) await rest();
       const [answer, buffers] = await tasks[task](args ?? {});
       self.postMessage({ id, answer }, buffers);
       asked = performance.now();

@@ -5,7 +5,9 @@ const SOFT_STIFFNESS = 1;
 
 export function fieldOf(body) {
   const { hf, surface } = body;
+  const present = () => body.stiffness?.surface ?? surface;
   let solver = null;
+  let on = null; // the surface that it stands on
   let held = new Map(); // id -> { number, corners, barycentrics, value, soft }
   const components = surface.components();
 
@@ -13,7 +15,10 @@ export function fieldOf(body) {
     a.corners.some((x, k) => x !== b.corners[k]) || a.barycentrics.some((x, k) => x !== b.barycentrics[k]);
 
   const hold = (sites) => {
-    solver ??= new hf.Solver(surface);
+    const next = present();
+    if (!solver) solver = new hf.Solver(next);
+    else if (on !== next) solver.moveTo(next);
+    on = next;
     const wanted = new Map(sites.map((site) => [site.id, site]));
     const gone = [...held].filter(([id, site]) => !wanted.has(id) || wanted.get(id).soft !== site.soft);
     if (gone.length) {

@@ -1,9 +1,9 @@
 // What is made once from a surface: skin weights and quads.
 /** pins: { vertex, bone, radius }: places that belong to one bone alone. */
 export function weightsOf(body, bones, influenceCount, pins) {
-  const { hf, surface } = body;
+  const { hf, stiffness } = body;
   const begin = performance.now();
-  const weights = new hf.Weights(surface, { ...bones, influenceCount });
+  const weights = new hf.Weights(stiffness.surface, { ...bones, influenceCount });
   try {
     if (pins.length)
       weights.setPins(

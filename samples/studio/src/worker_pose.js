@@ -42,7 +42,9 @@ function proposedRegions({ proposals = [], regions }) {
 export function poseOf(body) {
   const { hf, surface } = body;
   const regionOf = proposedRegions(body);
+  const present = () => body.stiffness?.surface ?? surface;
   let pose = null;
+  let on = null; // the surface that it stands on
   let held = []; // { id, position, radius, number, and what the pose was told of it (SETTINGS) }
   let told = {};
   let grabbed = false; // since the last deform
@@ -57,7 +59,10 @@ export function poseOf(body) {
 
   /** Handles up to the first difference stay; the others are removed and added in order, so that order decides the bits. */
   const hold = (handles, inPlace = false) => {
-    pose ??= new hf.Pose(surface);
+    const next = present();
+    if (!pose) pose = new hf.Pose(next);
+    else if (on !== next) pose.moveTo(next);
+    on = next;
     let same = 0;
     while (same < held.length && same < handles.length && sameRegion(held[same], handles[same])) ++same;
     if (same < held.length) {

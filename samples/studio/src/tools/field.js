@@ -1,5 +1,5 @@
 // Field: sites with values; drag one and the field follows.
-import { button, facts, make, ms, slider, touched, whole } from '../ui.js';
+import { brushButton, button, facts, make, ms, slider, touched, whole } from '../ui.js';
 
 /** A key moves a site by this many pixels along the surface: half of its dot, so that it is seen and can be aimed. */
 const NUDGE_PIXELS = 12;
@@ -180,6 +180,7 @@ export class FieldTool {
           { class: 'warn' },
           `${whole(told.unreachedVertexCount)} vertices belong to pieces without a site; they are hatched. Add a site there.`,
         ),
+      make('div', { class: 'row' }, brushButton(this.app)),
       facts([['sites', this.sites.length], this.sites.length && told && ['field', ms(told.milliseconds)]]),
     ];
   }

@@ -1,8 +1,9 @@
 // Pose: handles are proposed; drag one, turn one by its rings or keys, pin one, add one by a click on the body. With a mirror
 // the twin of a handle on the other side does the same. A drag frees the rotation of a handle: the pose finds it. Rings and
 // keys give it, from where it stands.
-import { BufferGeometry, LineBasicMaterial, LineLoop, Matrix3, Quaternion, Vector3 } from 'three';
-import { button, facts, make, ms, say, slider, whole } from '../ui.js';
+import { Matrix3, Quaternion, Vector3 } from 'three';
+import { brushButton, button, facts, make, ms, say, slider, whole } from '../ui.js';
+import { circleOf } from '../circle.js';
 import { Gizmo } from '../gizmo.js';
 import { Mirror, mirrorChoice } from '../mirror.js';
 
@@ -19,8 +20,6 @@ const GAP_SAID = 0.005;
 const [NUDGE, TURN_STEP] = [0.02, Math.PI / 18];
 /** Radius of a handle that a click makes, as part of the size of the body: of a leg's width on our own creatures. */
 const RADIUS = 0.035;
-/** Corners of the circle that shows a radius: each is shorter than 6 pixels. */
-const POINTS = 72;
 
 const rest = { rotation: [0, 0, 0, 1], translation: [0, 0, 0], free: false };
 
@@ -38,19 +37,7 @@ export class PoseTool {
     this.radius = RADIUS;
     this.mirror = new Mirror(app);
     this.ghost = true; // the body at rest is shown around the pose
-    // how far the chosen handle reaches
-    const round = Array.from({ length: POINTS }, (_, i) => (2 * Math.PI * i) / POINTS);
-    this.circle = new LineLoop(
-      new BufferGeometry().setFromPoints(round.map((angle) => new Vector3(Math.cos(angle), Math.sin(angle)))),
-      new LineBasicMaterial({ color: 0xe0781e, depthTest: false }),
-    );
-    this.circle.visible = false;
-    this.circle.renderOrder = 4;
-    app.view.extras.add(this.circle);
-    this.circle.onBeforeRender = (renderer, scene, camera) => {
-      this.circle.quaternion.copy(camera.quaternion);
-      this.circle.updateMatrixWorld();
-    };
+    this.circle = circleOf(app.view); // how far the chosen handle reaches
   }
   opened() {
     this.mirror.opened();
@@ -81,10 +68,17 @@ export class PoseTool {
     return this.offers.filter(({ pinned }) => pinned);
   }
   enter() {
-    this.app.skin.wear('own');
+    this.cover();
     this.app.timeline.arrive(this.app.state);
     this.dress();
     this.mirror.show(true);
+  }
+  /** Painted stiffness is shown, where there is some. */
+  cover() {
+    const { skin, tools } = this.app;
+    if (tools.brush?.cover()) return;
+    skin.wear('own');
+    this.app.legend(null);
   }
   leave() {
     this.gizmo.show(null);
@@ -158,6 +152,7 @@ export class PoseTool {
     ];
   }
   refresh() {
+    this.cover();
     this.dress();
     this.app.panel();
   }
@@ -182,8 +177,8 @@ export class PoseTool {
     };
   }
   /** A handle at rest would pull a posed body back to rest. */
-  posed() {
-    return this.handles.some(({ rotation, translation }) => translation.some(Boolean) || rotation[3] !== 1);
+  posed(handles = this.handles) {
+    return handles.some(({ rotation, translation }) => translation.some(Boolean) || rotation[3] !== 1);
   }
   /** New handles, placed where the body stands. A refusal is left to the step that adds them. */
   async placed(added) {
@@ -444,6 +439,7 @@ export class PoseTool {
           'aria-pressed': String(Boolean(app.state.lengths)),
           title: 'Limbs keep their length and thickness; bends get sharper, and a pose takes longer',
         }),
+        brushButton(app),
       ),
       mirrorChoice(this.mirror.axis, (axis) => {
         this.mirror.set(axis);

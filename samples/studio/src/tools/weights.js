@@ -104,8 +104,9 @@ export const tool = (kit) => {
         this.dress();
         this.bend.show();
       }
-      // undo and redo bring other pins
-      if (this.result && !this.busy && !this.setting && this.pinned !== this.app.state.pins) this.compute();
+      // undo and redo bring other pins, and the brush another stiffness
+      const { pins, stiffness } = this.app.state;
+      if (this.result && !this.busy && !this.setting && (this.pinned !== pins || this.stiffness !== stiffness)) this.compute();
       this.app.panel();
     }
     /** Of a list the pins of these bones, with the numbers of their bones. */
@@ -258,6 +259,7 @@ export const tool = (kit) => {
       const { heads, parents } = this.bones;
       const { app, influenceCount } = this;
       const mine = app.body;
+      this.stiffness = app.state.stiffness;
       this.busy = true;
       app.refresh();
       this.error = null;
