@@ -164,10 +164,10 @@ struct GraphOptions {
       const Reals& weights) const;
 };
 
-// What Surface::edit changes: stiffness, links, or both. The stiffness of a vertex is a number by which the weights of
-// its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region
-// of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A
-// region of small stiffness takes up the bending around it.
+// Lists the changes of Surface::edit: stiffness, links, or both. The stiffness of a vertex is a number by which the
+// weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a
+// row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a
+// shell. A region of small stiffness takes up the bending around it.
 struct SurfaceEdit {
   // `[vertex_count]` as given; the others keep what they have. none: all vertices in order
   std::vector<uint32_t> vertices{};

@@ -470,7 +470,7 @@ class hf_gaps_info(Struct):
 
 
 class hf_surface_edit_desc(Struct):
-    """What hf_surface_edit changes"""
+    """Lists the changes of hf_surface_edit"""
     struct_size: int
     vertex_count: int
     vertices: int

@@ -260,10 +260,10 @@ impl<'a> GraphOptions<'a> {
     }
 }
 
-/// What `Surface::edit` changes: stiffness, links, or both. The stiffness of a vertex is a number by which the weights of
-/// its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region
-/// of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A region
-/// of small stiffness takes up the bending around it.
+/// Lists the changes of `Surface::edit`: stiffness, links, or both. The stiffness of a vertex is a number by which the
+/// weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a
+/// row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a
+/// shell. A region of small stiffness takes up the bending around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceEdit<'a> {
     /// `[vertex_count]` as given; the others keep what they have. `None`: all vertices in order

@@ -484,7 +484,7 @@ pub struct hf_gaps_info {
     pub reserved: u32,
 }
 
-/// What hf_surface_edit changes
+/// Lists the changes of hf_surface_edit
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_edit_desc {
