@@ -169,7 +169,7 @@ struct GraphOptions {
 // row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a
 // shell. A region of small stiffness takes up the bending around it.
 struct SurfaceEdit {
-  // `[vertex_count]` as given; the others keep what they have. none: all vertices in order
+  // `[vertex_count]` as given; other vertices keep their stiffness. none: all vertices in order
   std::vector<uint32_t> vertices{};
   // `[vertex_count]` 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. none: no stiffness changes, and
   // vertex_count is 0

@@ -369,17 +369,18 @@ HF_API hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* link
 
 /* ---- edits ---- */
 
-/* Lists the changes of hf_surface_edit: stiffness, links, or both. The stiffness of a vertex is a number by which the weights
- * of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A
- * region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a shell.
- * A region of small stiffness takes up the bending around it. */
+/* Lists the changes of hf_surface_edit: stiffness, links, or both. The stiffness of a vertex is a number by which the
+ * weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a
+ * row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a
+ * shell. A region of small stiffness takes up the bending around it. */
 typedef struct hf_surface_edit_desc {
   uint32_t struct_size;
-  uint32_t vertex_count;    /* entries of vertices and stiffness */
-  const uint32_t* vertices; /* [vertex_count] as given; the others keep what they have. NULL: all vertices in order */
-  const double* stiffness;  /* [vertex_count] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. NULL: no
-                               stiffness changes, and vertex_count is 0 */
-  uint32_t link_count;      /* entries of links */
+  uint32_t vertex_count; /* entries of vertices and stiffness */
+  const uint32_t*
+      vertices; /* [vertex_count] as given; other vertices keep their stiffness. NULL: all vertices in order */
+  const double* stiffness; /* [vertex_count] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. NULL: no
+                              stiffness changes, and vertex_count is 0 */
+  uint32_t link_count;     /* entries of links */
   uint32_t removed_link_count;   /* entries of removed_links */
   const hf_link* links;          /* [link_count] links that come in, after those that stay */
   const uint32_t* removed_links; /* [removed_link_count] links that go out, by their numbers in hf_surface_get_links */
@@ -406,7 +407,7 @@ typedef struct hf_surface_edit_desc {
  * hf_surface_create refuses it) and HF_ERROR_CONFLICT (a vertex, or a welded copy, listed twice with different numbers;
  * a removed link listed twice), index = position in the list; HF_ERROR_NOT_FOUND (a removed link that is not there,
  * index = position in removed_links); HF_ERROR_EMPTY (nothing to edit), HF_ERROR_INVALID_ARGUMENT (vertices is NULL and
- * vertex_count is not that of the surface), HF_ERROR_UNSUPPORTED (links of a graph), HF_ERROR_NOT_POSITIVE_DEFINITE
+ * the surface has another vertex count), HF_ERROR_UNSUPPORTED (links of a graph), HF_ERROR_NOT_POSITIVE_DEFINITE
  * (negative weights, or weights that span too many digits; index = vertex), HF_ERROR_CANCELLED. Thread safety: reads
  * `surface`. Since 0.1. */
 HF_API hf_result hf_surface_edit(hf_surface surface, const hf_surface_edit_desc* desc, hf_surface* out_surface);

@@ -14,12 +14,12 @@ namespace {
 // starting over solves again. With 1, edits of similar cost in both ways would alternate between them.
 constexpr double restart_margin = 1.25;
 // After sites went into the factor, later edits factorise some dense rows (of mixed signs) again and again. Their cost
-// counts this many times. Chosen on 800 random edits of 1,000 vectors on 20,000 vertices. 4 takes a fifth longer in all
-// than 8. 16 takes as long as 8, with more rebases.
+// counts this many times. Chosen on 800 random edits of 1,000 vectors on 20,000 vertices. Half takes a fifth longer in
+// all. Double takes as long, with more rebases.
 constexpr double expected_repeats = 8;
 // Where the sites alone decide, later sites stay rows until these would cost this share of a rebase. A smaller number
 // rebases more often when sites come a part at a time. A larger number costs more when all come at once. On a torus of
-// 84,000 vertices, a ring of hundreds of sites more takes 95 to 103 ms with each of 0.25, 0.5, 1 and 2.
+// 84,000 vertices, a ring of hundreds of sites more takes as long with 0.25 to 2, within 8 %.
 constexpr double later_share = 0.5;
 
 }  // namespace
@@ -107,7 +107,7 @@ double ConstraintSystem::again_ns(const SiteEdit& edit, const SiteCost& cost) co
 
 // Where the sites alone decide: the slots below the result are those that a factor has taken in if the sites come a
 // part at a time. A rebase takes in all that are there when the rows would cost restart_margin times as much. Later
-// rebases come at later_share. So a site more is mostly a row more, and all at once cost at most later_share more.
+// rebases come at later_share. So one more site is mostly one more row, and all at once cost at most later_share more.
 Index ConstraintSystem::first_row(const SiteEdit& edit, const SiteCost& cost) const {
   Vector<std::uint8_t> leaves(state_.entries.size(), 0, &memory());
   for (const Index slot : edit.remove) leaves[at(slot)] = 1;

@@ -47,7 +47,7 @@ struct ConstraintCounts {
 
 class ConstraintSystem {
  public:
-  // Number of channels that one sweep solves: trades reads of the factor for scratch memory of so many numbers a
+  // Number of channels that one sweep solves: trades reads of the factor for scratch memory of so many numbers per
   // vertex. On a torus of 102,400 vertices 8 and 40 channels take 1.8 and 1.5 times as long with half. With double, 40
   // channels take 0.85 of the time and twice the scratch memory.
   static constexpr Index channel_block = 8;
@@ -115,8 +115,8 @@ class ConstraintSystem {
   // top of this file, which comes from the values of eliminated sites. It is null if the factor eliminates none.
   void solve_dense(const double* values, Index channels, Index first, Index count, const double* z,
                    Answer& answer) const;
-  // Three steps of a solve, for callers with a right-hand side of their own (green_refine.cpp). The letters are those
-  // of the top of this file. The first step, subtract_projections, computes answer -= Y'z. The second, solve_rows,
+  // Three steps of a solve, for callers with a right-hand side of their own (green_refine.cpp). The top of this file
+  // explains the letters. The first step, subtract_projections, computes answer -= Y'z. The second, solve_rows,
   // replaces `answer` by the dense unknowns lambda, t and nu. The third, combine, computes z += Y lambda + Y_g nu.
   void subtract_projections(const double* z, Index count, Answer& answer) const;
   void solve_rows(Index count, Answer& answer) const;

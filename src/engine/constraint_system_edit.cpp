@@ -347,8 +347,8 @@ void ConstraintEdit::project_pins(std::size_t first_group) {
   });
 }
 
-// Computes the products of the elimination paths of each new group with its own and those of all earlier groups. One
-// job handles a pair of groups, and each pair of rows gives one entry of M.
+// Computes the products of the elimination paths of each new group with its own paths and the paths of all earlier
+// groups. One job handles a pair of groups, and each pair of rows gives one entry of M.
 void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
   struct Pair {
     std::size_t a, b;
@@ -465,9 +465,9 @@ void ConstraintEdit::refuse_dependent(const DenseBlock& block, Index component, 
        position);
 }
 
-// Returns the number (slot) of a hard site of the component that depends linearly on others, or -1. It reports sites of
-// this edit before older sites. After a rebase a diagonal entry may be mere rounding, and so may its pivot. So every
-// new site is then examined.
+// Returns the slot of a hard site of the component that depends linearly on others, or -1. It reports sites of this
+// edit before older sites. After a rebase a diagonal entry may be mere rounding, and so may its pivot. So every new
+// site is then examined.
 Index ConstraintEdit::dependent_slot(const DenseBlock& block, Index component) const {
   if (!state_.base && block.least_pivot() >= suspect_share) return -1;
   Vector<HardSite> sites(&memory());

@@ -1,5 +1,6 @@
 // The state of a ConstraintSystem: the sites by slot, their elimination paths and dense blocks. A slot is the number of
-// a site. A state can be copied cheaply, because copies share what is immutable. Restoring a copy gives the same bits.
+// a site. A state can be copied cheaply, because copies share their immutable parts. Restoring a copy gives the same
+// bits.
 #pragma once
 #include <limits>
 
@@ -81,7 +82,7 @@ struct ConstraintState {
   Decision decision;                                 // how the last edit was carried out
 };
 
-// The sites of another system, whose elimination paths are those of the present one (Factor::take_paths).
+// The sites of another system. The present system can take their elimination paths (Factor::take_paths).
 struct KnownPaths {
   std::shared_ptr<const ConstraintState> state;  // null: none
   std::shared_ptr<const Factor> factor;

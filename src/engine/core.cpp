@@ -33,7 +33,7 @@ Core::Core(std::shared_ptr<const Geometry> shape)
 
 namespace {
 
-// Finds the mean diagonal of every component and the vertex to pin. diagonal: that of K, by vertex.
+// Finds the mean diagonal of every component and the vertex to pin. diagonal: of K, by vertex.
 void find_grounds(Core& core, const Vector<double>& diagonal) {
   const std::size_t components = static_cast<std::size_t>(core.mesh.component_count());
   core.ground.assign(components, Mesh::none);
@@ -67,7 +67,7 @@ constexpr double tie_shares[] = {0, 1e-9, 1e-7};
 // eight shapes with needles, loose pieces and a long ribbon.
 constexpr double confined_spread = 1e4, confined_biharmonic_spread = 10;
 // A pivot of a second-order operator must keep at least this share of its diagonal. The relative error of a field is
-// about 2^-52 divided by that share. The pivots of a regular mesh of n vertices keep at least 1 / n. Those of a
+// about 2^-52 divided by that share. The pivots of a regular mesh of n vertices keep at least 1 / n. Shares of a
 // fourth-order operator keep 1 / n^2, so it has the default limit. Half and double change no bit on eight shapes with
 // needles, loose pieces and a long ribbon.
 constexpr double harmonic_lost_share = 0x1p-31;

@@ -67,7 +67,7 @@ struct Core {
   explicit Core(std::shared_ptr<const Geometry> shape);
   // Makes the operator K on a geometry, and the factor of the pinned matrix A = K + sum_c beta_c e_gc e_gc'. The pinned
   // vertex of component c is its first vertex g_c. There the diagonal is raised by beta_c, the mean diagonal of K in
-  // the component. The field options.operator_kind must be that of the geometry. Progress runs from 0.15 to 1.
+  // the component. The geometry must have the same options.operator_kind. Progress runs from 0.15 to 1.
   static std::shared_ptr<const Core> make(std::shared_ptr<const Geometry> shape, const CoreOptions& options);
   // Makes the geometry and its core in one call.
   static std::shared_ptr<const Core> make(const MeshInput& input, const CoreOptions& options,
@@ -80,7 +80,7 @@ struct Core {
     return field_kind == FieldKind::harmonic ? unit : unit * unit;
   }
 
-  std::shared_ptr<Memory> memory;  // first member: outlives what is allocated from it
+  std::shared_ptr<Memory> memory;  // first member: outlives everything that is allocated from it
   std::shared_ptr<const Geometry> geometry;
   std::shared_ptr<JobRunner> jobs;
   const Mesh& mesh;  // this and the next are parts of the geometry
@@ -120,16 +120,16 @@ struct Core {
   // How stiff the surface is at every vertex: an edge of the operator counts the harmonic mean of its two ends times.
   // Null: 1 everywhere.
   std::shared_ptr<const Vector<double>> stiffness;
-  // The links beside those of `unedited`; null: the same.
+  // The difference from the links of `unedited`; null: none.
   std::shared_ptr<const LinkChange> link_change;
-  std::shared_ptr<const Core> unedited;        // that of the surface before all edits; null: this one
+  std::shared_ptr<const Core> unedited;        // the core of the surface before all edits; null: this one
   std::shared_ptr<const EditedMatrix> edited;  // K; null: laplacian is K
-  std::shared_ptr<const Core> factored;        // the core beside whose factor that of this one is; null: it has its own
+  std::shared_ptr<const Core> factored;        // the core whose factor this factor extends; null: it has its own
   CoreTimes times;
   mutable std::mutex pieces_guard;  // of `pieces`, which edits of links make when they first need it
   mutable std::shared_ptr<const PieceDiagonals> pieces;
   mutable PreviewCache preview;  // the factor in single precision; not for a core with `factored`
-  WorkspacePool& workspaces;     // those of the geometry without links
+  WorkspacePool& workspaces;     // the pools of the geometry without links
   WorkspacePool& zeroed_workspaces;
 };
 
@@ -144,7 +144,7 @@ bool is_long_shape(const Core& core);
 Vector<double> operator_diagonal(const Core& core);
 // Writes out = K u with `channels` numbers per vertex, by differences of u. out must not be u.
 void apply_operator(const Core& core, const double* u, std::int32_t channels, double* out);
-// The stiffness of an edge beside that of its ends. Two springs in a row, one of each end, are as stiff.
+// The stiffness of an edge, from the stiffness of its ends. Two springs in a row, one of each end, are as stiff.
 inline double edge_stiffness(double a, double b) noexcept { return 2 * a * b / (a + b); }
 // Returns the coordinates of the welded vertices in the format that the ordering needs; none for a graph.
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory);

@@ -13,16 +13,16 @@ namespace hf_inner {
 namespace {
 
 // Rows and columns whose products are summed together: 4 x 4 products with four sums each fill 16 registers of AVX2, or
-// half of those of AVX-512. With 800 rows of both signs a factorisation takes 96 ms, 48 ms with 2 and 66 ms with 8
-// (AVX2), but these round otherwise: fields get other bits.
+// half of the registers of AVX-512. With 800 rows of both signs a factorisation takes 96 ms, 48 ms with 2 and 66 ms
+// with 8 (AVX2), but these round otherwise: fields get other bits.
 constexpr std::int32_t tile = 4;
-// Running sums of a product. Their order decides the last bits, so the number is that of HF_FOUR_LANES.
+// Running sums of a product. Their order decides the last bits, so the number equals the lanes of HF_FOUR_LANES.
 constexpr std::size_t sums_of_product = 4;
 // Rows that take plane rotations together, since one row is a chain of dependent operations. With 800 rows 2 takes 15 %
 // longer, 8 takes 14 % less.
 constexpr std::int32_t rotated_together = 4;
 // Columns that are factored before all rows below are solved for them: trades passes over the rows for work on one
-// thread. With 32, 64 and 128, 100 sites on a torus of 90,000 vertices take 4.0 to 4.9 ms. No result depends on it.
+// thread. With half and double, 100 sites on a torus of 90,000 vertices take 4.0 to 4.9 ms. No result depends on it.
 constexpr std::int32_t block_columns = 64;
 
 // A pivot of the sites' dense system below this share of its diagonal entry has too few digits left: corrections of the
@@ -215,8 +215,7 @@ std::int32_t DenseBlock::factorise_signed() {
     for (std::int32_t j0 = 0; j0 <= grid; j0 += tile) {
       const double* other[tile];
       for (std::int32_t j = 0; j < tile; ++j) other[j] = l_.data() + row(std::min(j0 + j, k - 1));
-      // At j0 = grid the products are those of the four rows with each other. The first `grid` entries of these rows
-      // are known by then.
+      // At j0 = grid the products are between the four rows. The first `grid` entries of these rows are known by then.
       tile_dots(mine, other, static_cast<std::size_t>(j0), dots);
       for (std::int32_t i = valid_; i < end; ++i) {
         double* l = l_.data() + row(i);

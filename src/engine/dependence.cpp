@@ -42,9 +42,9 @@ Index last_close(const Vector<double>& l, std::size_t count, Memory& memory) {
   return -1;
 }
 
-// Returns a site of `rows` whose weight vector depends on those of the others, or -1: the first that depends on those
-// before it, else the last that depends on all others. So the order does not decide whether there is one. It
-// orthogonalises every vector twice (Gram-Schmidt).
+// Returns a site of `rows` whose weight vector depends on the vectors of the others, or -1. It is the first that
+// depends on the sites before it, else the last that depends on all others. So the order does not decide whether there
+// is one. It orthogonalises every vector twice (Gram-Schmidt).
 Index dependent_row(Span<const HardSite> sites, Span<const Index> rows, const Vector<Index>& columns, Memory& memory) {
   const std::size_t width = columns.size();
   const std::size_t count = rows.size();

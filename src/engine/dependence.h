@@ -26,7 +26,7 @@ struct HardSite {
   bool suspect = false;  // has a small pivot, so its group of sites is examined
 };
 
-// Returns the number (slot) of a site whose weights depend linearly on those of the others, or -1.
+// Returns the slot of a site whose weights depend linearly on the weights of the others, or -1.
 // sites: all hard sites of one component; their order decides which site is reported, but not whether one is. The
 // function orthogonalises one group of sites with common vertices at a time, in O(sites^2 vertices) of the group.
 std::int32_t dependent_site(Span<const HardSite> sites, Memory& memory);

@@ -1,7 +1,7 @@
 // The geometry of a surface: welded mesh, edges, areas and edge weights. It has no factor.
 //
 // Links make a second geometry from a plain one. Its components are groups of linked pieces. Its topology has the links
-// as edges without triangles. What works on triangles alone takes the plain geometry.
+// as edges without triangles. A computation on triangles alone takes the plain geometry.
 //
 // A geometry is immutable, so any number of threads may read it. Only its workspace pools have a lock.
 #pragma once
@@ -49,7 +49,7 @@ struct Geometry {
     return weight_units.empty() ? 1.0 : weight_units[static_cast<std::size_t>(component)];
   }
 
-  std::shared_ptr<Memory> memory;  // first member: outlives what is allocated from it
+  std::shared_ptr<Memory> memory;  // first member: outlives everything that is allocated from it
   std::shared_ptr<JobRunner> jobs;
   // The edges of triangles and links, and the weights of the Laplacian per edge. Thread safety: any thread.
   const Topology& topology() const { return edges().topology; }

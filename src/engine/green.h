@@ -72,7 +72,7 @@ class GreenSolver final : public SiteSolver {
   ConstraintCounts cloned_at_;  // counts of the engine this one was cloned from, at that time
 };
 
-// How a refinement is made, and what it found.
+// The options of a refinement, and its results.
 struct GreenSolver::Step {
   // If it is set, the sweeps run in single precision with this factor, and `scratch` holds their right-hand sides.
   const PreviewFactor* single = nullptr;

@@ -10,8 +10,8 @@
 //
 //     S dlambda + a 1 = g - Y'y,   1'dlambda = -1'r,   du = P' G^-T (y + Y dlambda) + a
 //
-// A free value t_r of a rebase has the same equation in its row, with the right-hand side -r_r - Y_r'y. The other
-// letters are those of constraint_system.h. Cost: a product with K, a forward and a backward sweep.
+// A free value t_r of a rebase has the same equation in its row, with the right-hand side -r_r - Y_r'y.
+// constraint_system.h explains the other letters. Cost: a product with K, a forward and a backward sweep.
 #include <algorithm>
 #include <cmath>
 
@@ -33,8 +33,9 @@ void GreenSolver::clear_answer(Index count, Answer& next) const {
   next.total.assign(state().sites_of.size() * m, 0.0);
 }
 
-// Replaces the right-hand side z of the field, in the order of the factor, and that of the sites in `next` by their
-// solution. The field still lacks the constant of each component. dense_only: leaves z useless, for half of the cost.
+// Replaces the right-hand side z of the field, in the order of the factor, and the right-hand side of the sites in
+// `next`, by their solution. The field still lacks the constant of each component. dense_only: leaves z useless, for
+// half of the cost.
 void GreenSolver::solve_right(double* z, Index count, Answer& next, const Step& step, bool dense_only) const {
   const std::size_t n = at(core_->size()), m = at(count);
   const Span<const Index> position = system_.factor().position();

@@ -1,4 +1,4 @@
-// The links of an edited surface beside those of the surface before all edits, as edges of the operator.
+// The difference between the links of an edited surface and of the surface before all edits, as edges of the operator.
 #pragma once
 #include "base/index.h"
 #include "base/memory.h"

@@ -6,7 +6,7 @@
 //     L v = W lambda,   L u = M v,   W'u + D lambda = s
 //
 // W are the weights of the sites, lambda their fluxes and s their values. D_i is 1 / alpha_i, or 0 for hard sites. Both
-// equations are those of a harmonic field, so the inner engine is a GreenSolver on L with the same sites. Its soft
+// equations have the form of a harmonic field, so the inner engine is a GreenSolver on L with the same sites. Its soft
 // sites have E_i = sqrt(D_i), because soft sites can depend on each other. With values c at its sites, its field is v =
 // H c and its fluxes are lambda = T c. The load M v with the values s - D lambda gives it the field u. It also gives
 // the fluxes T (s - D T c) - H'M H c, which must be 0:
@@ -18,7 +18,7 @@
 // fluxes of one load on the inner engine: two sweeps. The preconditioner is the lumped mass matrix H'M 1. A field takes
 // corrections with the true K, applied as two products with L, until the last one is small.
 //
-// Edits cost what they cost for a harmonic field. Memory is that of the harmonic factor and a few fields.
+// Edits cost as much as for a harmonic field. Memory: the harmonic factor and a few fields.
 #pragma once
 #include "engine/green.h"
 

@@ -35,7 +35,7 @@ struct PinnedOperator {
   std::size_t border() const noexcept { return pin_weight.empty() ? 1 : pins.size() / pin_weight.size(); }
   bool keeps_constants() const noexcept { return paths == nullptr; }
 
-  // K: that of the core, or the matrix. That of an edited core is made when it is first asked for.
+  // K: from the core, or the matrix. The matrix of an edited core is made at its first use.
   const SymmetricMatrix& k() const;
   const SymmetricMatrix* matrix = nullptr;
   const Core* core = nullptr;

@@ -15,7 +15,7 @@ struct Site {
   double weight[3] = {0, 0, 0};
   double compliance = 0;  // 1 / alpha; 0 = hard
   Index component = -1;
-  Index part = -1;  // a site's elimination path is stored with those of the same part only; -1: of any
+  Index part = -1;  // a site's elimination path is stored with paths of the same part only; -1: of any
   bool is_vertex() const noexcept { return vertex[1] < 0; }
   bool is_hard_vertex() const noexcept { return is_vertex() && compliance == 0; }
   static Site at_unknown(Index unknown, Index component, double compliance = 0) noexcept {

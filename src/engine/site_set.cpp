@@ -19,7 +19,7 @@ Site site_at(const Mesh& mesh, const SurfacePlace& place) noexcept {
   return site;
 }
 
-// The vertex that a place is: the number the caller gave, or that of the first copy. HF_NO_INDEX for other places.
+// The vertex of a place: the caller's number, or the number of the first copy. HF_NO_INDEX for other places.
 std::uint32_t vertex_given(const Mesh& mesh, const Places& places, std::uint32_t i, const Site& site) noexcept {
   if (places.vertices) return places.vertices[i];
   return site.is_vertex() ? given_vertex(mesh, site.vertex[0]) : HF_NO_INDEX;
@@ -83,7 +83,7 @@ void SiteSet::claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int
        same ? "" : " with other values");
 }
 
-// Frees the vertices of a site, and the hidden sites that make up its disc. The site keeps its own number (slot).
+// Frees the vertices of a site, and the hidden sites that make up its disc. The site keeps its own slot.
 void SiteSet::release(std::int32_t slot) noexcept {
   const Slot& own = slots_[at(slot)];
   if (own.radius > 0) {

@@ -61,7 +61,7 @@ class SiteSet {
   void remove(std::uint32_t count, const std::uint32_t* sites);
   void move(const Core& core, std::uint32_t count, const std::uint32_t* sites, const Places& to, std::uint32_t limit);
   void set_values(std::uint32_t count, const std::uint32_t* sites, const double* values);
-  // What new sites hold, by place. Each array may be null.
+  // The values of new sites, by place. Each array may be null.
   struct Holds {
     const double* values = nullptr;     // null: 0
     const double* stiffness = nullptr;  // null or 0: hard

@@ -17,7 +17,7 @@ namespace {
 // correction; with twice, fields lose a digit.
 constexpr double largest_rounding = 1e-10;
 
-// The rows of an edited operator: those of the operator before all edits, with other links and another stiffness.
+// Reads the rows of an edited operator: the rows before all edits, with other links and another stiffness.
 class EditedRows {
  public:
   // links, stiffness: null for none.

@@ -1,4 +1,4 @@
-// A surface whose stiffness was edited: its operator, and its factor beside that of the surface before.
+// A surface whose stiffness was edited: its operator, and its factor beside the factor of the surface before.
 //
 // The stiffness s of a vertex is a number by which the host multiplies the weights of its edges: an edge ij counts
 // 2 s_i s_j / (s_i + s_j) times. A stiff region has nearly constant fields, so poses move it as one. The operator stays
@@ -11,7 +11,7 @@ namespace hf_inner {
 // Multiplies the edges of a Laplacian by the stiffness of their ends, and sums the diagonals of changed rows again.
 void stiffen(SymmetricMatrix& laplacian, const Vector<double>& stiffness, Memory& memory);
 
-// What an edited surface has beside the surface before all edits.
+// Holds the stiffness and the links of an edited surface.
 struct SurfaceEdit {
   SurfaceEdit(std::shared_ptr<const Vector<double>> all = nullptr, std::shared_ptr<const Geometry> linked = nullptr)
       : stiffness(std::move(all)), geometry(std::move(linked)) {}

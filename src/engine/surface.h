@@ -25,11 +25,11 @@ class Surface {
   Surface(std::shared_ptr<const Surface> from, SurfaceEdit edit);
 
   const Geometry& geometry() const noexcept { return *geometry_; }
-  // Whether its operators are others than those of the surface before all edits.
+  // Returns whether edits have changed its operators.
   bool is_edited() const noexcept { return own_->stiffness || (origin_ && origin_->geometry_ != geometry_); }
-  // The surface with a stiffness of 1, for what follows lengths alone.
+  // The surface with a stiffness of 1, for everything that follows lengths alone.
   const Surface& unedited() const noexcept { return plain_ ? *plain_ : *this; }
-  // The geometry of these links, or null. It is that of a surface before this one where the links are the same.
+  // Returns the geometry with these links. Equal links share the geometry of a surface before this one.
   std::shared_ptr<const Geometry> geometry_of(std::shared_ptr<const Links> links) const;
   // By vertex; null: 1 everywhere.
   const Vector<double>* stiffness() const noexcept { return own_->stiffness.get(); }

@@ -140,7 +140,8 @@ std::shared_ptr<const Vector<double>> read_stiffness(const hf_surface_edit_desc&
   require_list(desc.vertex_count, desc.stiffness, "vertex_count", "stiffness");
   if (!desc.vertices && desc.vertex_count != given)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "vertex_count is %u; without a list of vertices it is that of the surface, %u", desc.vertex_count, given);
+         "vertex_count is %u; without a list of vertices it must be the vertex count of the surface, %u",
+         desc.vertex_count, given);
   Memory& memory = *before.geometry().memory;
   auto stiffness = make_shared_in<Vector<double>>(memory, mesh.positions.size(), 1.0);
   if (before.stiffness()) *stiffness = *before.stiffness();

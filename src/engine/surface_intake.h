@@ -6,7 +6,7 @@
 
 namespace hf_inner {
 
-// Returns the options of a graph as those of a surface.
+// Returns the options of a graph as options of a surface.
 hf_surface_desc options_of(const hf_graph_desc& desc);
 
 // Returns the kind of field of any desc. Throws HF_ERROR_INVALID_ARGUMENT.
@@ -27,7 +27,7 @@ CoreOptions core_options(const hf_surface_info& info);
 // the making of the core.
 CoreOptions options_like(const Surface& other);
 
-// Makes the core load a saved factor. ordering: as the caller asks, 0 for that of the factor. Throws
+// Makes the core load a saved factor. ordering: from the caller, 0 for the ordering of the factor. Throws
 // HF_ERROR_INVALID_ARGUMENT (another ordering, damaged bytes), HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER.
 void read_saved_factor(const hf_factor_desc& saved, std::int32_t ordering, CoreOptions& options);
 

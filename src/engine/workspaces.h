@@ -19,8 +19,8 @@ class WorkspacePool {
   void give(Buffer<double>&& buffer) noexcept;
 
  private:
-  // Buffers kept. More callers at once than this allocate their own. Less allocates again for that many threads at
-  // once, more keeps memory that few hosts need. No result depends on it.
+  // Buffers kept. If more callers run at once, the others allocate their own. Less allocates again for that many
+  // threads at once, more keeps memory that few hosts need. No result depends on it.
   static constexpr std::size_t most = 8;
   Memory& memory_;
   const bool zeroed_;

@@ -192,7 +192,7 @@ class EditedFactor final : public Factor {
 
   std::shared_ptr<const Factor> base_;
   Memory& memory_;
-  std::size_t rim_, inside_, k_;  // columns of V: first those of the rim, then those of the inside
+  std::size_t rim_, inside_, k_;  // columns of V: first the rim's, then the inside's
   FactorStatistics statistics_;
   Vector<std::shared_ptr<const PathGroup>> paths_;  // of the rim
   struct Place {
@@ -503,7 +503,7 @@ std::shared_ptr<const PathGroup> EditedFactor::own_paths(std::shared_ptr<const P
   });
 }
 
-// The products V'y of the inside are the weights of the site there: adds those of one site to a column of the group.
+// The products V'y of the inside are the weights of the site there. Adds the weights of one site to a column.
 void EditedFactor::add_inside(const SparseColumns& columns, std::size_t site, std::size_t column,
                               EditedPaths& group) const {
   for (Index e = columns.start[site]; e < columns.start[site + 1]; ++e) {

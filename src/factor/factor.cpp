@@ -168,7 +168,7 @@ SupernodalFactor::SupernodalFactor(std::shared_ptr<const Analysis> analysis, Mem
   measure_paths();
 }
 
-// Measures the mean length of the elimination paths. A path is the path of the parent supernode (block of columns) plus
+// Measures the mean length of the elimination paths. A path is the path of the parent supernode plus
 // the supernode's own columns.
 void SupernodalFactor::measure_paths() {
   const Symbolic& pattern = symbolic();

@@ -22,7 +22,7 @@ constexpr std::uint64_t copy_step = std::uint64_t{1} << 22;
 constexpr std::uint64_t most_count = std::uint64_t{1} << 48;
 // Refuses larger numbers of entries and flops in saved bytes as damaged.
 constexpr double most_work = 1e300;
-// One thread's job checks this many supernodes (blocks of columns). Half and twice the value take the same time within
+// One thread's job checks this many supernodes. Half and twice the value take the same time within
 // 10 %. No result depends on it.
 constexpr std::int32_t list_step = 2048;
 constexpr std::uint32_t byte_order = 0x01020304u;
@@ -164,7 +164,7 @@ void check_columns(Symbolic& out) {
   }
 }
 
-// Calls work(s) for every supernode s (block of columns), in jobs of list_step supernodes.
+// Calls work(s) for every supernode s, in jobs of list_step supernodes.
 template <class Work>
 void for_supernodes(const Symbolic& symbolic, JobRunner& jobs, Work&& work) {
   jobs.for_each(static_cast<std::uint32_t>((symbolic.supernodes + list_step - 1) / list_step),
@@ -174,7 +174,7 @@ void for_supernodes(const Symbolic& symbolic, JobRunner& jobs, Work&& work) {
                 });
 }
 
-// Checks the row lists of the supernodes (blocks of columns). They ascend, lie below their columns, and continue in the
+// Checks the row lists of the supernodes. They ascend, lie below their columns, and continue in the
 // parent: each row is a column of the parent or in its list.
 void check_rows(Symbolic& out, JobRunner& jobs) {
   for_supernodes(out, jobs, [&](std::int32_t s) {

@@ -42,7 +42,7 @@ struct ChildView {
   const std::int32_t* run;    // first rows of the runs, ending with `size`
 };
 
-// Supernodes (blocks of columns) with at most this many columns are stored inverted: X = L^-1 and B X replace the
+// Supernodes with at most this many columns are stored inverted: X = L^-1 and B X replace the
 // triangle L and the rows B (kernels_narrow.inl).
 constexpr std::int32_t narrow_columns = 16;
 

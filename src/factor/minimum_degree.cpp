@@ -14,7 +14,7 @@ namespace {
 // library uses the same value. With 5 and 20, a graph of 64,000 vertices, 30 of them with very many neighbours, gets
 // the same order. Without such a limit, a vertex with 200,000 neighbours takes minutes.
 constexpr double dense_factor = 10;
-// Pivots between two looks at a cancel: 64 pivots of factor_test take 2 to 90 us. No result depends on it.
+// Pivots between two checks for a cancel: 64 pivots of factor_test take 2 to 90 us. No result depends on it.
 constexpr std::uint32_t pivots_per_poll = 64;
 
 // The quotient graph of an elimination. A variable stands for unknowns with equal neighbours, an element for an

@@ -21,7 +21,7 @@ constexpr std::int32_t gram_stride = PathGroup::capacity + 16;
 
 const PathBlocks& blocks_of(const PathGroup& group) noexcept { return static_cast<const PathBlocks&>(group); }
 
-// Lists the supernodes (blocks of columns) on the elimination paths of a group of sites; their places are set later.
+// Lists the supernodes on the elimination paths of a group of sites; their places are set later.
 // slot[s]: index of the block of supernode s, or -1 if there is none.
 void collect_blocks(const Symbolic& symbolic, const SparseColumns& columns, Span<const std::int32_t> members,
                     Vector<PathBlock>& blocks, std::int32_t* slot) {

@@ -79,8 +79,8 @@ void group_tasks(const Symbolic& symbolic, const double* share, Memory& memory, 
   stable_sort(
       plan.task_order.data(), plan.task_order.size(),
       [&](std::int32_t a, std::int32_t b) { return task_share_sum[a] > task_share_sum[b]; }, memory);
-  // Subtrees of supernodes (blocks of columns) are tasks, one job each. The supernodes above them run in waves: those
-  // of equal height above the tasks together.
+  // Subtrees of supernodes are tasks, one job each. The supernodes above them run in waves. A wave holds the supernodes
+  // of equal height above the tasks.
   Vector<std::int32_t> height(symbolic.supernodes, -1, &memory);
   for (const std::int32_t s : top) {
     std::int32_t h = 0;

@@ -17,7 +17,7 @@ struct Plan {
   Buffer<std::int32_t> task_start;  // tasks + 1: task t owns roots [task_start[t], task_start[t + 1])
   Buffer<std::int32_t> task_order;  // tasks (groups of subtrees) by falling work
   std::int32_t tasks = 0;
-  // The top: all supernodes (blocks of columns) above the tasks, which are groups of subtrees.
+  // The top: all supernodes above the tasks, which are groups of subtrees.
   Buffer<std::int32_t> top;         // supernodes above the tasks, by height (wave by wave), ascending inside a wave
   Buffer<std::int32_t> wave_start;  // place in `top` where each wave begins; waves + 1 entries
   std::int32_t waves = 0;

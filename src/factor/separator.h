@@ -18,7 +18,7 @@ struct GraphView {
   const std::int32_t* start = nullptr;
   const std::int32_t* neighbour = nullptr;
   const float* point = nullptr;          // xyz per vertex, or null
-  const std::int32_t* weight = nullptr;  // number of original vertices that a vertex stands for, or null for 1 each
+  const std::int32_t* weight = nullptr;  // number of original vertices in a vertex, or null for 1 each
   std::int32_t weight_of(std::int32_t v) const noexcept { return weight ? weight[v] : 1; }
 };
 

@@ -61,7 +61,7 @@ struct Simd<float> {
   static Type subtract_product(Type a, Type b, Type c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
 };
 
-// Vectors for supernodes (blocks of columns) whose number of columns is known at compile time: 256 bits where that is
+// Vectors for supernodes whose number of columns is known at compile time: 256 bits where that is
 // enough.
 template <bool Half>
 struct NarrowDouble {

@@ -117,7 +117,7 @@ struct Simd<double> : Double4 {};
 template <>
 struct Simd<float> : Float8 {};
 
-// Vectors for supernodes (blocks of columns) whose number of columns is known at compile time: one register where that
+// Vectors for supernodes whose number of columns is known at compile time: one register where that
 // is enough.
 template <bool One, class T>
 struct NarrowSet {

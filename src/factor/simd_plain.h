@@ -61,7 +61,7 @@ struct Narrow {
 
 constexpr bool has_row_products = false;  // without four lanes, one product follows the other
 
-// 16 registers: 3 x 4 sums take 12 and 2 x 4 take 8, the rest holds rows and factors. Double spills.
+// There are 16 registers. Sums of 3 x 4 take 12, sums of 2 x 4 take 8. The rest holds rows and factors. Double spills.
 constexpr int gemm_rows = 3, gemm_columns = 4;  // vectors of rows x columns of a sum
 // In narrow supernodes, only one right-hand side has kernels of its own. With two lanes, more of them lie along the
 // lanes as fast, and the code of 16 widths for 2, 3 and 4 would take a tenth of the WebAssembly file.

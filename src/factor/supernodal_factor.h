@@ -18,7 +18,7 @@ struct Analysis {
   bool loaded = false;                              // loaded from bytes: the hash cannot be trusted
 };
 
-// One supernode (block of columns) on the elimination paths of a group of sites: a row of `lanes` numbers for each of
+// One supernode on the elimination paths of a group of sites: a row of `lanes` numbers for each of
 // its columns, for the sites [low, low + used).
 struct PathBlock {
   std::int32_t supernode;
@@ -66,7 +66,7 @@ class SupernodalFactor final : public Factor {
   void clear(const PathGroup& group, std::int32_t channels, double* z) const override;
   void project(const PathGroup& group, const double* z, std::int32_t channels, double* out) const override;
 
-  // Returns the supernodes (blocks of columns) on the elimination paths of these unknowns, ascending.
+  // Returns the supernodes on the elimination paths of these unknowns, ascending.
   Vector<std::int32_t> path_union(Span<const std::int32_t> unknowns) const;
   const Symbolic& symbolic() const noexcept { return analysis_->symbolic; }
   const Plan& plan() const noexcept { return analysis_->plan; }

@@ -21,15 +21,15 @@ namespace {
 
 // One thread's job sums this many columns of a supernode that is split.
 constexpr std::int32_t piece_columns = 96;
-// Each of several independent supernodes (blocks of columns) is one thread's job if the largest is at most this many
+// Each of several independent supernodes is one thread's job if the largest is at most this many
 // times its fair share.
 constexpr double even_share = 1.3;
-// Independent supernodes (blocks of columns) with fewer entries in all are never split: some 20 microseconds at 0.6 ns
+// Independent supernodes with fewer entries in all are never split: some 20 microseconds at 0.6 ns
 // per entry, less than a batch of jobs costs.
 constexpr double small_wave_entries = 30000;
 // One thread's job multiplies this many rows below a supernode's triangle.
 constexpr std::int32_t piece_rows = 128;
-// A supernode (block of columns) with fewer entries is never split over threads: some 25 microseconds, less than a
+// A supernode with fewer entries is never split over threads: some 25 microseconds, less than a
 // batch of jobs costs.
 constexpr double least_cut = 40000;
 // One job converts this many numbers of the factor.
@@ -242,7 +242,7 @@ class ForwardPass {
     if (narrow) solve_triangle(s, z);
   }
 
-  // Does the forward step of one supernode (block of columns) like the function above, with the rows of a large one
+  // Does the forward step of one supernode like the function above, with the rows of a large one
   // split over the threads.
   void solve(std::int32_t s, T* product, JobRunner& jobs) const {
     const std::int32_t columns = symbolic_.columns(s), rows = symbolic_.below(s);

@@ -27,7 +27,7 @@ struct Merging {
   Buffer<std::int32_t> first;       // columns [first[s], first[s + 1]) in tree labels
   Buffer<std::int32_t> parent;      // supernode tree
   Buffer<std::int32_t> into;        // the supernode that it joined, or -1
-  Buffer<std::int32_t> width;       // its columns and those of all supernodes that joined it
+  Buffer<std::int32_t> width;       // its columns and the columns of all supernodes that joined it
   Buffer<std::int32_t> below;       // number of rows below its triangle
   Buffer<std::int32_t> head, next;  // lists of the present children
 };

@@ -179,7 +179,8 @@ void Finder::add_tail() {
       "rearmost place");
 }
 
-// By shape alone only where the body stands on two legs, and on both sides or on none: a horn on one side is no hand.
+// The shape alone gives hands only to a body with two legs, and on both sides or on none: a horn on one side is no
+// hand.
 void Finder::add_hands() {
   std::vector<uint32_t> hands = of_part(BodyPart::hand);
   if (hands.empty()) hands = of_part(BodyPart::finger);
@@ -266,7 +267,7 @@ bool Finder::add_known_fins(BodyPart part, const std::string& name) {
   return true;
 }
 
-// Fins of a body without feet: those of the skeleton, else the widest places, if they are far from the middle.
+// Fins of a body without feet: the fins of the skeleton, else the widest places, if they are far from the middle.
 void Finder::add_fins() {
   if (add_known_fins(BodyPart::fin, "fin")) return;
   std::vector<uint32_t> free;

@@ -3,14 +3,14 @@
 //
 // Feet are the ends of legs of the skeleton, if it has as many on the left as on the right. Else they are the pieces of
 // the surface below 12 % of the height that stand on the ground. The limit is lower for shorter legs, and a piece may
-// be farther off the ground if the model rests in mid-stride. What the skeleton knows as trunk, head, ear, antenna,
-// tail, wing or fin is no foot, and but for the trunk no hand. A body without feet (a fish, a snake) has its ends and
-// fins. Wings and fins come from the skeleton first. The skeleton says where up and forward are. Without one up is +y,
-// the side axis is the one with the best symmetry, and forward is where toes and head point (+z when in doubt, as in
-// glTF). Head, tail and hands come from the skeleton first, else from the extremities of the surface that the caller
-// gives (hf_surface_find_extremities). Ears come from the skeleton only. The trunk places lie where a line through the
-// belly, or through the back of an upright body, leaves the body. Every landmark says how it was found and how reliable
-// it is.
+// be farther off the ground if the model rests in mid-stride. A trunk, head, ear, antenna,
+// tail, wing or fin of the skeleton is no foot. Each of these except the trunk is no hand. A body without feet (a fish,
+// a snake) has its ends and fins. Wings and fins come from the skeleton first. The skeleton says where up and forward
+// are. Without one up is +y, the side axis is the one with the best symmetry, and forward is where toes and head point
+// (+z when in doubt, as in glTF). Head, tail and hands come from the skeleton first, else from the extremities of the
+// surface that the caller gives (hf_surface_find_extremities). Ears come from the skeleton only. The trunk places lie
+// where a line through the belly, or through the back of an upright body, leaves the body. Every landmark says how it
+// was found and how reliable it is.
 #ifndef HF_GLTF_LANDMARKS_H
 #define HF_GLTF_LANDMARKS_H
 

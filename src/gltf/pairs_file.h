@@ -24,7 +24,7 @@ struct TransferSettings {
   bool paper = false, stretch = false;
   uint32_t clusters = 0;
   double width = 0, scale = 0, alignment_degrees = 0;  // 0 = the library's default; negative = never
-  bool ground = true;                                  // false: no feet stand and nothing is kept above the ground
+  bool ground = true;                                  // false: the body has no feet and no ground
 };
 
 // The dials of an animator; neutral as made (hf_transfer_dials).

@@ -27,9 +27,9 @@ constexpr double skin_distance = 0.02;
 // false 4.5 %.
 constexpr double skin_difference = 0.5;
 // A link whose ends have equal skin weights is so much stronger; at skin_difference it is as strong as others. It
-// trades closed pieces for bodies whose fields rigid neighbours bridge. Of 1,508 transfers of the choosing half of
-// tests/bench/transfer_table.cpp, 90 open by more than 0.5 % of the box: 93 with 300, 87 with 3,000, 195 with 0. A
-// two-legged robot played on itself is 1.38 % off, and 1.03 % with 0.
+// trades closed pieces for bodies whose fields rigid neighbours bridge. On the choosing half of
+// tests/bench/transfer_table.cpp, 90 transfers open by more than 0.5 % of the box. With 0 it is 195, with 300 93, with
+// 3,000 87. A two-legged robot played on itself is 1.38 % off, and 1.03 % with 0.
 constexpr double rigid_weight = 1000;
 // The depth of contacts between such pieces. Half: gap .069 / .34, entries 1.177. Double: .067 / .32, 1.192, false
 // 0.9 %.

@@ -13,8 +13,8 @@ namespace {
 // Barycentrics are scaled to sum 1 if they are this near to it. Less refuses sums of rounded decimals, more takes wrong
 // numbers for weights. It refuses mistakes, and no link depends on it.
 constexpr double barycentric_slack = 1e-3;
-// Nearer sums are 1 but for rounding, and the barycentrics stay as they are, so that a list read back has the same
-// bits. It trades nothing: sums of three shares miss 1 by at most 4e-16.
+// Nearer sums are 1 up to rounding. The barycentrics do not change, so that a list read back has the same bits. It
+// trades nothing: sums of three shares miss 1 by at most 4e-16.
 constexpr double rounded_sum = 1e-15;
 // Joints of a skeleton: as many as 16 bits can name.
 constexpr std::uint32_t most_parents = 0x10000;

@@ -23,7 +23,7 @@ double least_above(double cost) noexcept { return cost * (1 + 4 * std::numeric_l
 
 struct Pair {
   Index a, b;
-  double gap;       // lower bound of the distance: that of the boxes, or the range searched in vain
+  double gap;       // lower bound of the distance: between the boxes, or the range searched in vain
   double skin;      // lower bound of what skin weights add to the distance
   double cost;      // of the cheapest contact; unbounded: not found yet
   double distance;  // of the nearest
@@ -272,7 +272,7 @@ void LinkSearch::grow_tree() {
   };
   const auto entry_of = [&](std::size_t i) {
     const Pair& pair = pairs_[i];
-    // Most sheets touch what they lie over, so that one search finds the tree's edge.
+    // Most sheets touch the piece under them, so that one search finds the tree's edge.
     const bool sheet = has_sheet(pair);
     const double guess = pair.gap + std::max(pair.skin, sheet && pair.gap < touching ? touching : 0);
     return Entry{(sheet ? sheet_detour : 0) + (pair.cost < unbounded ? pair.cost : guess), i};
@@ -356,7 +356,7 @@ void LinkSearch::add_link(const Contact& contact, bool in_tree, Vector<Link>& to
   }
   link.length = rest_length(link, mesh_);
   double weight = std::max(1.0, edge_length(link) / spring_edge);
-  // What moves with the same joints is one body: it opens nowhere.
+  // Vertices that move with the same joints are one body: it opens nowhere.
   if (options_.skin.influence_count > 0)
     weight *= 1 + rigid_weight * std::max(0.0, 1 - contact.unlike() / (skin_difference * skin_distance));
   link.weight = std::round(16 * weight) / 16;  // so that a list read back has the same bits

@@ -89,8 +89,8 @@ Vector<LinkEdge> link_edges(const Links& links, OperatorKind operator_kind, Memo
 // Numbers the groups of linked pieces by their lowest vertices, as components of a copy of the mesh.
 Mesh linked_mesh(const Mesh& mesh, const Links& links, Memory& memory);
 
-// Returns the topology with the links as edges without triangles. weights: by edge, of the topology; receives those of
-// the returned one, with edges of light pieces scaled.
+// Returns the topology with the links as edges without triangles. weights: by edge, of the topology; receives the
+// weights of the returned topology, with edges of light pieces scaled.
 Topology linked_topology(const Topology& topology, const Links& links, Span<const LinkEdge> edges,
                          Vector<double>& weights, Memory& memory);
 

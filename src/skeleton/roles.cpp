@@ -275,13 +275,13 @@ void take_declared_roles(Body& body) {
   }
 }
 
-// What a body wears or holds has no role. Like a tail or a wing it may hang lower than the feet.
+// Clothes and held things have no role. Like a tail or a wing they may hang lower than the feet.
 bool hangs(Role role) {
   return role == Role::other || role == Role::tail || role == Role::wing || role == Role::fin || role == Role::ear ||
          role == Role::antenna;
 }
 
-// A body stands on its feet, and not on what hangs on it.
+// The feet of a body are at the ground, and parts that hang on it are not.
 void find_ground(Body& body) {
   double feet = 1e300, trunk = 1e300;
   for (std::size_t v = 0; v < body.points.size(); ++v) {

@@ -33,8 +33,8 @@ struct RestSide {
 Mat3 checked_axes(const double (&rows)[9], const char* side);
 
 // Returns the height of the ground along up, in inner coordinates: of the lowest vertex. feet, trunk: heights of the
-// lowest vertices of their regions, or no_height. A body whose feet are below its trunk stands on them, and vertices
-// that hang too far below to let feet stand (a cape, a tail, scenery) are no ground.
+// lowest vertices of their regions, or no_height. The feet of a body are at the ground if they are below its trunk.
+// Vertices far below the feet (a cape, a tail, scenery) are no ground.
 double ground_height(const RestSide& side, double feet, double trunk) noexcept;
 
 // Returns the mean leg length on one surface over the ground, in inner coordinates. foot_columns: columns of

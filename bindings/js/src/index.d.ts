@@ -1324,7 +1324,7 @@ export interface Surface extends Handle {
    * links stay; other links change it as they do for Surface.relink. Surface.save is refused: save the factor of
    * the surface before its edits. Memory limits hold for both surfaces together.
    *
-   * vertices: [vertexCount] as given; the others keep what they have. null: all vertices in order
+   * vertices: [vertexCount] as given; other vertices keep their stiffness. null: all vertices in order
    * stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. null: no stiffness
    *     changes, and vertex_count is 0
    * links: [linkCount] links that come in, after those that stay

@@ -1392,7 +1392,7 @@ class Surface(Object):
         while links stay; other links change it as they do for Surface.relink. Surface.save is refused: save the
         factor of the surface before its edits. Memory limits hold for both surfaces together.
 
-        vertices: (vertex_count,) as given; the others keep what they have. None: all vertices in order
+        vertices: (vertex_count,) as given; other vertices keep their stiffness. None: all vertices in order
         stiffness: (vertex_count,) 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. None: no
             stiffness changes, and vertex_count is 0
         links: (link_count,) links that come in, after those that stay

@@ -266,7 +266,7 @@ impl<'a> GraphOptions<'a> {
 /// shell. A region of small stiffness takes up the bending around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceEdit<'a> {
-    /// `[vertex_count]` as given; the others keep what they have. `None`: all vertices in order
+    /// `[vertex_count]` as given; other vertices keep their stiffness. `None`: all vertices in order
     pub vertices: Option<&'a [u32]>,
     /// `[vertex_count]` 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. `None`: no stiffness changes,
     /// and vertex_count is 0
