@@ -35,8 +35,8 @@ struct Geometry {
   // components. Cost: O(n) only where components change; edges are made when they are first asked for.
   static std::shared_ptr<const Geometry> relinked(std::shared_ptr<const Geometry> from,
                                                   std::shared_ptr<const Links> links);
-  // Returns a geometry with the edges, areas and weights of another one, and other positions. It has no links of its
-  // own: its edges are those of triangles and links.
+  // Returns a geometry with the edges, areas and weights of another one, and other positions. The links of that
+  // one are among its edges.
   static std::shared_ptr<const Geometry> moved(const Geometry& from, Span<const Vec3> positions);
   // The geometry without links: of the triangles alone.
   const Geometry& unlinked() const noexcept { return plain ? *plain : *this; }

@@ -124,8 +124,8 @@ class Factor {
                            Span<std::int32_t> out_column) const = 0;
 
   // Turns a group of elimination paths of another factor into paths of this one, without solving them: both are edits
-  // of one factor, or one is the edit of the other (edited_factor.h). Null where they are not. columns: those of the
-  // group, empty where a path is not in use.
+  // of one factor, or one is the edit of the other (edited_factor.h). Else it returns null. columns: the weights of
+  // the group's sites, empty where a path is not in use.
   std::shared_ptr<const PathGroup> take_paths(const Factor& from, std::shared_ptr<const PathGroup> group,
                                               const SparseColumns& columns, Memory& memory) const {
     if (&from.path_base() != &path_base()) return nullptr;
