@@ -367,6 +367,7 @@ export class App {
       }
       if (this.skin) this.timeline.stop();
       this.tool?.leave?.();
+      $('sheet').parentElement.scrollTop = 0;
     }
     this.tool = this.tools[key];
     const shown = this.tool.home ?? key;

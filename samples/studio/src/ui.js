@@ -24,6 +24,7 @@ export const brushButton = (app) =>
       const home = app.tool.constructor.key;
       await app.need('brush').then((brush) => (brush.home = home), () => {}); // what does not come is said by use()
       await app.use('brush');
+      $('done')?.focus({ preventScroll: true }); // who came by keys goes on there
     },
     { id: 'brush', title: 'B: paints where the body bends less, or more, than the rest' },
   );

@@ -16,7 +16,7 @@ const words = (level) => (level ? `${wordOf(level)}, ${(10 ** level).toLocaleStr
 
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
-  const { button, choice, circleOf, colourAt, facts, make, pack, say, slider, touched, unpack, whole } = kit;
+  const { $, button, choice, circleOf, colourAt, facts, make, pack, say, slider, touched, unpack, whole } = kit;
   const colours = Array.from({ length: COLOURS }, (_, i) => colourAt((i + 0.5) / COLOURS));
   return class {
     static key = 'brush';
@@ -262,7 +262,7 @@ export const tool = (kit) => {
         make(
           'div',
           { class: 'row' },
-          button(`Back to ${back}`, () => app.use(this.home), { id: 'done', class: 'main' }),
+          button(`Back to ${back}`, () => app.use(this.home).then(() => $('brush')?.focus({ preventScroll: true })), { id: 'done', class: 'main' }),
           button('Erase', () => this.erase(), { id: 'erase', 'aria-pressed': String(this.erasing), title: 'E: strokes make it normal again' }),
           button('Remove all', () => app.commit({ ...app.state, stiffness: null }, 'remove all stiffness'), {
             id: 'clear',
