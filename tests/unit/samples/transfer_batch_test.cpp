@@ -81,7 +81,7 @@ TEST(TransferBatch, AWrongListIsNamed) {
   refused("\xef\xbb\xbf# a byte order mark\n", "no line");
   refused("\xff\xfe# UTF-16\n", "save it as UTF-8");
   refused("a.glb \"b.glb\n", "line 1: a quote is not closed");
-  refused("a.glb b.glb\n--batch other.txt\n", "line 2: --batch");
+  refused("a.glb b.glb\n--batch other.txt\n", "line 2: a list cannot contain --batch");
   EXPECT_EQ(transfer("--batch absent.txt", said), 1);
   EXPECT_NE(said.find("absent.txt"), std::string::npos);
   EXPECT_EQ(transfer("--batch " + quoted(list) + " a.glb", said), 1);

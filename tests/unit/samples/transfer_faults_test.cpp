@@ -62,7 +62,7 @@ TEST(TransferFaults, WhatIsPutInIsFoundAndSaid) {
 
   PlayedClip sunk = w.clip;
   sunk.feet.surface_sunk = 0.03;
-  EXPECT_EQ(expect(sunk, "sinks").sunk, 0.03);
+  EXPECT_EQ(expect(sunk, "under the ground").sunk, 0.03);
   PlayedClip open = w.clip;
   open.gap = 0.03;
   EXPECT_EQ(expect(open, "come apart").gap, 0.03);
