@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "capi/boundary.h"
 #include "capi/handle_table.h"
-#include "engine/stiffness.h"
+#include "engine/edited_core.h"
 #include "engine/surface.h"
 #include "field/intake.h"
 #include "hf/surface.h"

@@ -9,7 +9,7 @@
 #include "base/timer.h"
 #include "engine/lost_components.h"
 #include "engine/pinned_operator.h"
-#include "engine/stiffness.h"
+#include "engine/edited_core.h"
 #include "factor/factor_bytes.h"
 #include "factor/work_limit.h"
 #include "mesh/biharmonic.h"

@@ -22,7 +22,7 @@ struct Core;
 struct LinkChange;
 struct PieceDiagonals;
 
-// The operator of a surface whose stiffness or links were edited (stiffness.h). Fields hardly ever need it, so it is
+// The operator of a surface whose stiffness or links were edited (edited_core.h). Fields hardly ever need it, so it is
 // made when it is first asked for. Thread safety: any thread.
 class EditedMatrix {
  public:

@@ -1,7 +1,7 @@
 #include "engine/surface.h"
 
 #include "engine/link_change.h"
-#include "engine/stiffness.h"
+#include "engine/edited_core.h"
 
 namespace hf_inner {
 

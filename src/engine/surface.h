@@ -20,7 +20,7 @@ class Surface {
   // Makes the operator and factor of options.field_kind, or loads the factor from options.saved_factor.
   Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& options);
 
-  // Makes a surface with another stiffness or other links (stiffness.h), which shares the factor of `from`. Throws what
+  // Makes a surface with another stiffness or other links (edited_core.h), which shares the factor of `from`. Throws what
   // edit_core throws.
   Surface(std::shared_ptr<const Surface> from, SurfaceEdit edit);
 
@@ -64,7 +64,7 @@ class Surface {
   const std::shared_ptr<Made> made_;
   std::shared_ptr<const Surface> origin_;  // before all edits; null: this is it
   std::shared_ptr<const Surface> plain_;   // with a stiffness of 1; null: this is it
-  // edit_core (stiffness.h), or null without edits: a program that edits nothing links nothing of it
+  // edit_core (edited_core.h), or null without edits: a program that edits nothing links nothing of it
   std::shared_ptr<const Core> (*edit_)(std::shared_ptr<const Core>, SurfaceEdit, double) = nullptr;
 };
 

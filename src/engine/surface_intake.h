@@ -1,6 +1,6 @@
 // Reads the options of a surface: checks them, fills in defaults, compares counts with limits.
 #pragma once
-#include "engine/stiffness.h"
+#include "engine/edited_core.h"
 #include "engine/surface.h"
 #include "hf/surface.h"
 

@@ -26,7 +26,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "engine/stiffness.h"
+#include "engine/edited_core.h"
 #include "field/flow_bound.h"
 #include "mesh/laplacian.h"
 

@@ -6,7 +6,7 @@
 
 #include "engine/link_change.h"
 #include "engine/site_solver.h"
-#include "engine/stiffness.h"
+#include "engine/edited_core.h"
 #include "engine/surface.h"
 #include "support/hard_meshes.h"
 #include "support/oracle.h"

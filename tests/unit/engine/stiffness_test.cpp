@@ -1,5 +1,5 @@
 // Fields on surfaces whose stiffness was edited, against a core made with that stiffness and against dense solves.
-#include "engine/stiffness.h"
+#include "engine/edited_core.h"
 
 #include "support/dirty_meshes.h"
 #include "support/engines.h"

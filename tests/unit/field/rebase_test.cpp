@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "engine/stiffness.h"
+#include "engine/edited_core.h"
 #include "field/scalar_field.h"
 #include "support/engines.h"
 #include "support/meshes.h"

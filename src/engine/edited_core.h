@@ -1,8 +1,12 @@
-// A surface whose stiffness was edited: its operator, and its factor beside the factor of the surface before.
+// A surface whose stiffness or links were edited: its operator, and its factor beside the factor of the surface before.
 //
 // The stiffness s of a vertex is a number by which the host multiplies the weights of its edges: an edge ij counts
 // 2 s_i s_j / (s_i + s_j) times. A stiff region has nearly constant fields, so poses move it as one. The operator stays
 // a Laplacian: a field keeps to the range of its sites, and K of ones is 0.
+//
+// Links add edges and take edges away (link_change.h). They can join components and part them. Every component has one
+// pinned vertex, whose diagonal is raised (core.h), so the pins change with the components. The factor needs all this
+// as a change D of a few rows (edited_factor.h): ends of links, neighbours of stiffened vertices, and pins.
 #pragma once
 #include "engine/core.h"
 
@@ -19,9 +23,9 @@ struct SurfaceEdit {
   std::shared_ptr<const Geometry> geometry;         // the same mesh with other links; null: those there are
 };
 
-// Returns a core with this stiffness and these links. A harmonic core shares the factor of `from`, or
-// factorises again with the same ordering where sharing costs more than `most` times as much; tests raise it. Other
-// kinds of field are made anew. Throws HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED or std::bad_alloc.
+// Returns a core with this stiffness and these links. A harmonic core shares the factor of `from`, or factorises again
+// with the same ordering where sharing costs more than `most` times as much; tests raise it. Other kinds of field are
+// made anew. Throws HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED or std::bad_alloc.
 std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, SurfaceEdit edit, double most = 1);
 
 }  // namespace hf_inner

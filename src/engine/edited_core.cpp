@@ -1,4 +1,4 @@
-#include "engine/stiffness.h"
+#include "engine/edited_core.h"
 
 #include <algorithm>
 #include <cmath>
