@@ -65,7 +65,7 @@ void align_chain(const Retargeter& r, ChainPair& pair, Aligning how, Turn before
   const Vec3 whole = wanted(equal ? bones : ns) - wanted(0);
   Turn turn = shortest_turn(before * (own(equal ? bones : nt) - own(0)), whole) * before;
   Vec3 first = wanted(1) - wanted(0);  // of the bones of the source
-  if (equal && bones > 1 && norm(whole) > 0) {
+  if (how != Aligning::line && equal && bones > 1 && norm(whole) > 0) {
     if (pair.role == Role::leg && bones == 2) first = wanted_knee(r, pair, turn, whole);
     const Vec3 line = unit_vector(whole);
     const double length = norm(own(bones) - own(0));

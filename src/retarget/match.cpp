@@ -205,7 +205,8 @@ Role flapping_partner(const Character& source, const Character& target, Side sid
 }
 
 // Arms by number. Legs from behind; the front legs of an animal follow arms where there are no more legs. Arms flap as
-// wings or fins where the source has no arms, and these as one another.
+// wings or fins where the source has no arms, and these as one another. The bend of a fin is no elbow, so such pairs
+// are aligned by their lines alone.
 void Matcher::add_limbs() {
   const auto count = [](const Character& c, Role role, Side side) {
     std::uint32_t found = 0;
@@ -227,7 +228,7 @@ void Matcher::add_limbs() {
     if (sa == 0 && ta > 0 && sl > tl) add(Role::leg, 0, Role::arm, 0, Aligning::none);
     for (const Role to : {Role::arm, Role::wing, Role::fin}) {
       const Role by = flapping_partner(s.character, t.character, side, to);
-      if (by != to && by != Role::other && !(to == Role::arm && sl > tl)) add(by, 0, to, 0, Aligning::whole);
+      if (by != to && by != Role::other && !(to == Role::arm && sl > tl)) add(by, 0, to, 0, Aligning::line);
     }
   }
 }

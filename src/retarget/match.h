@@ -4,10 +4,11 @@
 
 namespace hf_inner {
 
-enum class Aligning : std::int32_t { none, whole, segments };
+enum class Aligning : std::int32_t { none, line, whole, segments };
 
 // The turns that bring the segments of the target at rest to the directions of the source; `before` comes first.
-// whole: the chain turns as one. segments: then about its line to the bend of the source, then bone by bone.
+// line: the chain turns as one, the shortest way. whole: then about its line to the bend of the source. segments: then
+// bone by bone.
 void align_chain(const Retargeter& r, ChainPair& pair, Aligning how, Turn before);  // align.cpp
 
 // Place k of a chain at rest: where segment k begins, or the tip.

@@ -68,6 +68,39 @@ TEST(Flap, ArmsFollowWingsOfABodyWithoutArms) {
   }
 }
 
+// A fin that is bent backward at rest beside a straight one: arms with bent elbows keep their twist on both sides.
+TEST(Flap, TheBendOfAWingTwistsNoArm) {
+  Rig bent = make_beast("bird", true);
+  for (const std::string side : {".L", ".R"}) {  // two bones that end in a joint, straight but for the right tip
+    for (const char* name : {"Wing1", "Wing2", "Wing3"})
+      bent.joints[static_cast<std::size_t>(bent.find(name + side))].pivot.z = 0.1;
+    for (int& owner : bent.owners) owner = owner == bent.find("Wing3" + side) ? bent.find("Wing2" + side) : owner;
+  }
+  bent.joints[static_cast<std::size_t>(bent.find("Wing3.R"))].pivot.z += 0.25;
+  Rig arms = make_biped("words", {});
+  arms.turn(arms.find("left_elbow"), {0, 0, 1}, 40);
+  arms.turn(arms.find("right_elbow"), {0, 0, 1}, -40);
+  const Flyer bird(bent), man(arms);
+  Memory memory;
+  Retarget retarget(bird.side(), man.side(), {}, memory);
+  const std::vector<double> pose = rest_trs(bird.input), rest = rest_trs(man.input);
+  std::vector<double> out(10 * man.placed.parents.size());
+  retarget.frame(pose.data(), 0, out.data());
+  const auto before = world_of(man.placed.parents, rest.data()), after = world_of(man.placed.parents, out.data());
+  const auto turn_of = [&](const char* name, std::size_t i, std::size_t j) {  // of the joint since its rest
+    const std::size_t at = 12 * static_cast<std::size_t>(man.rig.find(name));
+    double sum = 0;
+    for (std::size_t k = 0; k < 9; k += 3) sum += after[at + i + k] * before[at + j + k];
+    return sum;
+  };
+  double trace = 0;  // of the left turn after the mirrored right one back: 1 + 2 cos of the angle between them
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j)
+      trace += turn_of("left_arm", i, j) * turn_of("right_arm", i, j) * ((i == 0) != (j == 0) ? -1 : 1);
+  }
+  EXPECT_GT((trace - 1) / 2, 0.9);
+}
+
 TEST(Flap, WingsDoNotHangAsArms) {
   const Flyer bird(make_beast("bird", true)), man(make_biped("words", {}));
   Memory memory;
