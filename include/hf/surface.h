@@ -369,7 +369,7 @@ HF_API hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* link
 
 /* ---- edits ---- */
 
-/* Lists the changes of hf_surface_edit: stiffness, links, or both. The stiffness of a vertex is a number by which the
+/* Lists the changes of hf_surface_edit: stiffness and links, or triangles. The stiffness of a vertex is a number by which the
  * weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a
  * row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a
  * shell. A region of small stiffness takes up the bending around it. */
@@ -384,7 +384,15 @@ typedef struct hf_surface_edit_desc {
   uint32_t removed_link_count;   /* entries of removed_links */
   const hf_link* links;          /* [link_count] links that come in, after those that stay */
   const uint32_t* removed_links; /* [removed_link_count] links that go out, by their numbers in hf_surface_get_links */
-  hf_progress progress;          /* NULL, or an object to poll and cancel through */
+  uint32_t removed_triangle_count;   /* entries of removed_triangles */
+  uint32_t new_vertex_count;         /* entries of new_positions */
+  uint32_t new_triangle_count;       /* entries of new_triangles */
+  uint32_t reserved;                 /* 0 */
+  const uint32_t* removed_triangles; /* [removed_triangle_count] triangles of your mesh that go */
+  const double* new_positions;       /* [new_vertex_count][3] vertices that come in, numbered after those there are */
+  const uint32_t* new_triangles;     /* [new_triangle_count][3] triangles that come in, numbered after those there are;
+                                        corners are vertices of your mesh and new ones */
+  hf_progress progress;              /* NULL, or an object to poll and cancel through */
 } hf_surface_edit_desc;
 
 /* Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface shares

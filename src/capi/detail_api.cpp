@@ -8,8 +8,7 @@ namespace {
 
 struct DetailObject final : Object {
   static constexpr Kind kind_of = Kind::detail;
-  explicit DetailObject(CarriedDetail&& made)
-      : Object(kind_of, made.surface->core->memory), detail(std::move(made)) {}
+  explicit DetailObject(CarriedDetail&& made) : Object(kind_of, made.surface->core->memory), detail(std::move(made)) {}
   CarriedDetail detail;
 };
 

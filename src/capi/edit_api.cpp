@@ -9,7 +9,7 @@ namespace hf_inner::capi {
 namespace {
 
 void require_same_origin(const Core& core, const Surface& surface, const char* noun) {
-  if (&core.geometry->unlinked() != &surface.geometry().unlinked())
+  if (!core.geometry->is_kin(surface.geometry()))
     fail(HF_ERROR_CONFLICT, HF_NO_INDEX,
          "the %s is on another surface: move it to one that hf_surface_edit or hf_surface_relink made from its own",
          noun);
@@ -28,7 +28,7 @@ hf_result hf_surface_edit(hf_surface surface, const hf_surface_edit_desc* given,
     const auto object = get<SurfaceObject>(surface, "surface");
     const hf_surface_edit_desc desc = read_struct(given, "desc");
     const std::shared_ptr<const Surface> before(object, &object->surface);
-    SurfaceEdit edit = read_surface_edit(desc, *before);
+    SurfaceEdit edit = read_surface_edit(desc, *before, object->info);
     return with_progress(desc.progress, [&] {
       return make_owner_in<SurfaceObject>(object->memory, before, std::move(edit), object->info);
     });
@@ -66,6 +66,9 @@ hf_result hf_pose_move_to(hf_pose handle, hf_surface surface) {
     const auto object = get<SurfaceObject>(surface, "surface");
     const Changing changing(*pose);
     require_same_origin(pose->pose->core(), object->surface, "pose");
+    if (&pose->pose->core().geometry->unlinked() != &object->surface.geometry().unlinked())
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+           "the surface has other triangles; make a pose on it with the handles of this one");
     pose->pose->move_to(object->surface.core(FieldKind::harmonic));
   });
 }

@@ -49,9 +49,18 @@ struct SurfaceObject final : Object {
       : Object(kind_of, geometry->memory), surface(std::move(geometry), options), info(given) {}
   // A surface edited from another one.
   SurfaceObject(std::shared_ptr<const Surface> from, SurfaceEdit edit, const hf_surface_info& given)
-      : Object(kind_of, from->geometry().memory), surface(std::move(from), std::move(edit)), info(given) {}
+      : Object(kind_of, from->geometry().memory),
+        surface(std::move(from), std::move(edit)),
+        info(counted(given, surface.geometry().mesh.report)) {}
   const Surface surface;
   const hf_surface_info info;
+
+ private:
+  static hf_surface_info counted(hf_surface_info info, const MeshReport& report) noexcept {
+    info.vertex_count = report.vertex_count;
+    info.triangle_count = report.triangle_count;
+    return info;
+  }
 };
 
 // Returns a surface that has triangles. purpose: why the call needs them. Throws HF_ERROR_UNSUPPORTED for one made of a

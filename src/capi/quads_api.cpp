@@ -21,8 +21,7 @@ struct QuadsObject final : Object {
 
 struct FlowObject final : Object {
   static constexpr Kind kind_of = Kind::flow;
-  explicit FlowObject(std::shared_ptr<const Core> core)
-      : Object(kind_of, core->memory), tracer(std::move(core)) {}
+  explicit FlowObject(std::shared_ptr<const Core> core) : Object(kind_of, core->memory), tracer(std::move(core)) {}
   FlowTracer tracer;
 };
 

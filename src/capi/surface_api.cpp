@@ -52,7 +52,7 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
   return guarded("hf_surface_get_report", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
     check_struct(out_report, "out_report");
-    const MeshReport& found = object->surface.geometry().mesh.report;
+    const MeshReport& found = object->surface.geometry().mesh_report();
     hf_surface_report report{};
     report.vertex_count = found.vertex_count;
     report.triangle_count = found.triangle_count;
@@ -66,7 +66,7 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
     report.flipped_edge_count = found.flipped_edge_count;
     report.boundary_edge_count = found.boundary_edge_count;
     report.bounding_box_diagonal = found.bounding_box_diagonal;
-    const MeshReport& unlinked = object->surface.geometry().unlinked().mesh.report;
+    const MeshReport& unlinked = object->surface.geometry().unlinked().mesh_report();
     report.inside_out_count = unlinked.inside_out_count;
     report.first_inside_out_vertex = given_vertex(object->surface.geometry().mesh, unlinked.first_inside_out);
     write_struct(out_report, report);
@@ -78,7 +78,7 @@ hf_result hf_surface_get_mesh_statistics(hf_surface surface, hf_mesh_statistics*
     const auto object = get<SurfaceObject>(surface, "surface");
     check_struct(out_statistics, "out_statistics");
     const Core& core = object->surface.own();
-    const MeshReport& found = object->surface.geometry().mesh.report;
+    const MeshReport& found = object->surface.geometry().mesh_report();
     hf_mesh_statistics statistics{};
     statistics.polygon_count = core.mesh.faces.polygon_count;
     statistics.non_planar_count = core.mesh.faces.non_planar_count;

@@ -244,8 +244,12 @@ Index ConstraintEdit::known_column(Index row, std::size_t group) const noexcept 
   if (row < 0 || at(row) >= known_.state->entries.size()) return -1;
   const auto &there = known_.state->entries[at(row)], &here = state_.entries[at(row)];
   const Site &a = there.site, &b = here.site;
+  const auto is_same = [&](Index there_vertex, Index vertex) {
+    return (known_.vertex && there_vertex >= 0 ? (*known_.vertex)[at(there_vertex)] : there_vertex) == vertex;
+  };
   const bool same = there.used() && there.path.group == static_cast<Index>(group) && a.part == b.part &&
-                    std::equal(a.vertex, a.vertex + 3, b.vertex) && std::equal(a.weight, a.weight + 3, b.weight);
+                    std::equal(a.vertex, a.vertex + 3, b.vertex, is_same) &&
+                    std::equal(a.weight, a.weight + 3, b.weight);
   return same ? there.path.column : -1;
 }
 

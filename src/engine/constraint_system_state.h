@@ -86,6 +86,7 @@ struct ConstraintState {
 struct KnownPaths {
   std::shared_ptr<const ConstraintState> state;  // null: none
   std::shared_ptr<const Factor> factor;
+  std::shared_ptr<const Vector<Index>> vertex;  // by vertex of that system: its number here; null: the same
 };
 
 }  // namespace hf_inner

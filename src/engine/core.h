@@ -20,19 +20,21 @@ constexpr std::int32_t most_formed_valence = 1000;
 
 struct Core;
 struct LinkChange;
+struct PatchRows;
 struct PieceDiagonals;
 
-// The operator of a surface whose stiffness or links were edited (edited_core.h). Fields hardly ever need it, so it is
+// The operator of an edited surface (edited_core.h). Fields hardly ever need it, so it is
 // made when it is first asked for. Thread safety: any thread.
 class EditedMatrix {
  public:
-  // links, stiffness: null for none.
-  EditedMatrix(std::shared_ptr<const Core> plain, std::shared_ptr<const LinkChange> links,
-               std::shared_ptr<const Vector<double>> stiffness);
+  // patch, links, stiffness: null for none.
+  EditedMatrix(std::shared_ptr<const Core> plain, std::shared_ptr<const PatchRows> patch,
+               std::shared_ptr<const LinkChange> links, std::shared_ptr<const Vector<double>> stiffness);
   const SymmetricMatrix& get() const;
 
  private:
   std::shared_ptr<const Core> plain_;
+  std::shared_ptr<const PatchRows> patch_;
   std::shared_ptr<const LinkChange> links_;
   std::shared_ptr<const Vector<double>> stiffness_;
   mutable std::mutex mutex_;
@@ -74,6 +76,8 @@ struct Core {
                                           std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs);
 
   std::int32_t size() const noexcept { return mesh.vertex_count(); }
+  // The unknowns of the factor: the vertices, and those that went since it was made (extended_factor.h).
+  std::int32_t unknown_count() const noexcept { return factor ? factor->size() : size(); }
   // A flux of 1 in a component is this much in the caller's unit of weights. Bi-harmonic operators square the weights.
   double flux_unit(std::int32_t component) const noexcept {
     const double unit = geometry->weight_unit(component);
@@ -120,6 +124,8 @@ struct Core {
   // How stiff the surface is at every vertex: an edge of the operator counts the harmonic mean of its two ends times.
   // Null: 1 everywhere.
   std::shared_ptr<const Vector<double>> stiffness;
+  // The rows that exchanged triangles changed since `unedited`; null: none.
+  std::shared_ptr<const PatchRows> patch;
   // The difference from the links of `unedited`; null: none.
   std::shared_ptr<const LinkChange> link_change;
   std::shared_ptr<const Core> unedited;        // the core of the surface before all edits; null: this one

@@ -1,11 +1,48 @@
 #include "engine/geometry.h"
 
+#include "base/error.h"
 #include "base/index.h"
 #include "base/timer.h"
 #include "mesh/face_intake.h"
 #include "mesh/orientation.h"
 
 namespace hf_inner {
+namespace {
+
+constexpr float welded = 0.1f, weighted = 0.15f;  // reported progress, by the usual share of time
+
+void count_inside_out(const Mesh& mesh, MeshReport& report, Memory& memory) {
+  report.inside_out_count = 0;
+  const Vector<std::int8_t> sides = component_sides(mesh, memory);
+  for (const std::int8_t side : sides) report.inside_out_count += side < 0;
+  report.first_inside_out = mesh.first_of_given([&](Index v) { return sides[at(mesh.component[at(v)])] < 0; });
+}
+
+// Sums up the areas of some vertices again.
+void sum_areas(const Mesh& mesh, const Vector<Index>& vertices, SharedVector<double>& areas, Memory& memory) {
+  Vector<std::uint8_t> asked(mesh.positions.size(), 0, &memory);
+  for (const Index v : vertices) {
+    asked[at(v)] = 1;
+    areas[at(v)] = 0;
+  }
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Index* const v = mesh.triangle(t);
+    if ((asked[at(v[0])] | asked[at(v[1])] | asked[at(v[2])]) == 0) continue;
+    const Vec3 a = mesh.positions[at(v[0])];
+    const double third = norm(cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a)) / 6.0;
+    for (int k = 0; k < 3; ++k)
+      if (asked[at(v[k])]) areas[at(v[k])] += third;
+  }
+}
+
+void count_given(Geometry& shape) {
+  shape.given_count.assign(shape.mesh.report.component_count, 0);
+  for (const Index v : shape.mesh.inner_of_given) {
+    if (v != Mesh::none) ++shape.given_count[at(shape.mesh.component[at(v)])];
+  }
+}
+
+}  // namespace
 
 Geometry::Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> runner)
     : memory(std::move(owner)),
@@ -19,29 +56,28 @@ Geometry::Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> run
       zeroed_workspaces(*memory, true),
       edges_(*memory) {}
 
-namespace {
-
-constexpr float welded = 0.1f, weighted = 0.15f;  // reported progress, by the usual share of time
-
-void count_inside_out(Mesh& mesh, Memory& memory) {
-  const Vector<std::int8_t> sides = component_sides(mesh, memory);
-  for (const std::int8_t side : sides) mesh.report.inside_out_count += side < 0;
-  mesh.report.first_inside_out = mesh.first_of_given([&](Index v) { return sides[at(mesh.component[at(v)])] < 0; });
+const MeshReport& Geometry::mesh_report() const {
+  if (!unlinked().is_patched) return mesh.report;
+  if (report_made_.load(std::memory_order_acquire)) return report_;
+  const Topology& edges = topology();
+  const std::lock_guard<std::mutex> lock(edges_guard_);
+  if (report_made_.load(std::memory_order_relaxed)) return report_;
+  MeshReport counted = mesh.report;
+  counted.degenerate_triangle_count = 0;
+  measure_triangles(mesh, counted, jobs.get(), *memory);
+  count_edges(edges, counted);
+  counted.negative_edge_count = count_negative(edge_weights(mesh, edges, OperatorKind::cotangent, *memory, jobs.get()));
+  count_inside_out(mesh, counted, *memory);
+  report_ = counted;
+  report_made_.store(true, std::memory_order_release);
+  return report_;
 }
-
-void count_given(Geometry& shape) {
-  shape.given_count.assign(shape.mesh.report.component_count, 0);
-  for (const Index v : shape.mesh.inner_of_given) {
-    if (v != Mesh::none) ++shape.given_count[at(shape.mesh.component[at(v)])];
-  }
-}
-
-}  // namespace
 
 std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorKind operator_kind,
                                                std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
   Memory& pool = *memory;
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(memory, memory, std::move(jobs));
+  shape->family = make_shared_in<char>(pool, '\0');
   JobRunner* const runner = shape->jobs.get();
   shape->operator_kind = operator_kind;
   report(0.0f);
@@ -62,7 +98,7 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
     shape->edges_.weights = edge_weights(shape->mesh, shape->edges_.topology, operator_kind, pool, runner);
   shape->jobs->for_each(3, [&](std::uint32_t i) {  // they write different members
     if (i == 0) {
-      count_inside_out(shape->mesh, pool);
+      count_inside_out(shape->mesh, shape->mesh.report, pool);
     } else if (i == 1) {
       if (shape->mesh.faces.empty())
         count_edges(shape->edges_.topology, found);
@@ -81,6 +117,7 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
 std::shared_ptr<const Geometry> Geometry::make(const GraphInput& input, std::shared_ptr<Memory> memory,
                                                std::shared_ptr<JobRunner> jobs) {
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(memory, memory, std::move(jobs));
+  shape->family = make_shared_in<char>(*memory, '\0');
   shape->operator_kind = OperatorKind::graph;
   report(0.0f);
   Timer timer;
@@ -105,6 +142,7 @@ std::shared_ptr<const Geometry> Geometry::linked(std::shared_ptr<const Geometry>
   if (links->links.empty()) return plain;
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(plain->memory, plain->memory, plain->jobs);
   shape->operator_kind = plain->operator_kind;
+  shape->family = plain->family;
   shape->mesh = linked_mesh(plain->mesh, *links, pool);
   shape->areas = plain->areas;
   count_given(*shape);
@@ -121,6 +159,7 @@ std::shared_ptr<const Geometry> Geometry::relinked(std::shared_ptr<const Geometr
                                                    std::shared_ptr<const Links> links) {
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(from->memory, from->memory, from->jobs);
   shape->operator_kind = from->operator_kind;
+  shape->family = from->family;
   shape->areas = from->areas;
   shape->plain = from->plain ? from->plain : from;
   const auto groups_of = [](const Geometry& geometry, const Links& of) {
@@ -141,6 +180,27 @@ std::shared_ptr<const Geometry> Geometry::relinked(std::shared_ptr<const Geometr
   return shape;
 }
 
+std::shared_ptr<const Geometry> Geometry::patched(std::shared_ptr<const Geometry> from, const MeshPatch& patch) {
+  if (from->links && !from->links->links.empty())
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "triangles of a surface with links cannot be exchanged; take its links out, and put them in again after it");
+  if (from->plain) from = from->plain;
+  Timer timer;
+  const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(from->memory, from->memory, from->jobs);
+  PatchedMesh made = patched_mesh(from->mesh, patch, *shape->memory);
+  shape->mesh = std::move(made.mesh);
+  shape->operator_kind = from->operator_kind;
+  shape->family = from->family;
+  shape->is_patched = true;
+  shape->areas.resize(shape->mesh.positions.size());
+  for (std::size_t v = 0; v < made.number.size(); ++v)
+    if (made.number[v] != Mesh::none) shape->areas[at(made.number[v])] = from->areas[v];
+  sum_areas(shape->mesh, made.touched, shape->areas, *shape->memory);
+  count_given(*shape);
+  shape->weld_ms = from->weld_ms + timer.milliseconds();
+  return shape;
+}
+
 std::shared_ptr<const Geometry> Geometry::moved(const Geometry& from, Span<const Vec3> positions) {
   const std::shared_ptr<Geometry> shape = make_shared_in<Geometry>(*from.memory, from.memory, from.jobs);
   shape->mesh = from.mesh;
@@ -148,6 +208,8 @@ std::shared_ptr<const Geometry> Geometry::moved(const Geometry& from, Span<const
   shape->mesh.positions.assign(positions.begin(), positions.end());
   shape->areas = from.areas;
   shape->operator_kind = from.operator_kind;
+  shape->family = from.family;
+  shape->is_patched = from.is_patched;
   shape->edges_.topology = from.topology();
   shape->edges_.weights = from.weights();
   shape->edges_made_ = true;
@@ -159,6 +221,16 @@ const Geometry::Edges& Geometry::edges() const {
   const std::lock_guard<std::mutex> lock(edges_guard_);
   if (edges_made_.load(std::memory_order_relaxed)) return edges_;
   Edges made(*memory);
+  if (!plain) {  // a patched mesh
+    made.topology = Topology::make(mesh, *memory, jobs.get());
+    made.weights =
+        edge_weights(mesh, made.topology,
+                     operator_kind == OperatorKind::intrinsic_delaunay ? OperatorKind::cotangent : operator_kind,
+                     *memory, jobs.get());
+    edges_ = std::move(made);
+    edges_made_.store(true, std::memory_order_release);
+    return edges_;
+  }
   made.weights.assign(plain->weights().begin(), plain->weights().end());
   made.topology =
       linked_topology(plain->topology(), *links, link_edges(*links, operator_kind, *memory), made.weights, *memory);

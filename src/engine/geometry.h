@@ -18,6 +18,7 @@
 #include "mesh/laplacian.h"
 #include "mesh/links.h"
 #include "mesh/mesh.h"
+#include "mesh/mesh_patch.h"
 #include "mesh/topology.h"
 
 namespace hf_inner {
@@ -35,11 +36,17 @@ struct Geometry {
   // components. Cost: O(n) only where components change; edges are made when they are first asked for.
   static std::shared_ptr<const Geometry> relinked(std::shared_ptr<const Geometry> from,
                                                   std::shared_ptr<const Links> links);
+  // Returns a geometry with other triangles (mesh_patch.h). Throws what patched_mesh throws, and HF_ERROR_UNSUPPORTED
+  // for a geometry with links. Cost: O(n); edges and counts of the report are made when they are first asked for.
+  static std::shared_ptr<const Geometry> patched(std::shared_ptr<const Geometry> from, const MeshPatch& patch);
   // Returns a geometry with the edges, areas and weights of another one, and other positions. The links of that
   // one are among its edges.
   static std::shared_ptr<const Geometry> moved(const Geometry& from, Span<const Vec3> positions);
   // The geometry without links: of the triangles alone.
   const Geometry& unlinked() const noexcept { return plain ? *plain : *this; }
+
+  // Whether two geometries come from one mesh by links and patches: the caller's numbers mean the same in both.
+  bool is_kin(const Geometry& other) const noexcept { return family == other.family; }
 
   // Reads a graph of the caller (WeightedGraph::make), for OperatorKind::graph. Throws what that throws.
   static std::shared_ptr<const Geometry> make(const GraphInput& input, std::shared_ptr<Memory> memory,
@@ -54,6 +61,8 @@ struct Geometry {
   // The edges of triangles and links, and the weights of the Laplacian per edge. Thread safety: any thread.
   const Topology& topology() const { return edges().topology; }
   const Vector<double>& weights() const { return edges().weights; }
+  // The report of the mesh; that of a patched one is counted when it is first asked for. Thread safety: any thread.
+  const MeshReport& mesh_report() const;
 
   Mesh mesh;
   SharedVector<double> areas;         // per vertex, a third of the triangles around it; the masses of a graph
@@ -63,6 +72,8 @@ struct Geometry {
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   std::shared_ptr<const Geometry> plain;  // null: no links
   std::shared_ptr<const Links> links;     // null: no links
+  std::shared_ptr<const char> family;     // one for all that is made of one mesh
+  bool is_patched = false;
   double weld_ms = 0, weights_ms = 0, links_ms = 0;
   mutable WorkspacePool workspaces;
   mutable WorkspacePool zeroed_workspaces;
@@ -77,7 +88,8 @@ struct Geometry {
 
   mutable Edges edges_;
   mutable std::mutex edges_guard_;
-  mutable std::atomic<bool> edges_made_{false};
+  mutable std::atomic<bool> edges_made_{false}, report_made_{false};
+  mutable MeshReport report_;
 };
 
 }  // namespace hf_inner

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core_difference.h"
+
 namespace hf_inner {
 namespace {
 
@@ -32,7 +34,14 @@ GreenSolver::GreenSolver(const GreenSolver& other)
 std::shared_ptr<SiteSolver> GreenSolver::on(std::shared_ptr<const Core> core) const {
   if (core->root) return make(std::move(core));
   const auto made = make_owner_in<GreenSolver>(core->memory, core);
-  if (!state().base && !state().groups.empty()) made->system_.know({system_.snapshot(), core_->factor});
+  if (state().base || state().groups.empty()) return made;
+  KnownPaths known{system_.snapshot(), core_->factor, nullptr};
+  if (!Unknowns::are_same(*core_, *core)) {
+    const auto vertex = make_shared_in<Vector<Index>>(*core->memory);
+    *vertex = std::move(VertexMap(core_->mesh, core->mesh, *core->memory).to);
+    known.vertex = vertex;
+  }
+  made->system_.know(std::move(known));
   return made;
 }
 
@@ -81,7 +90,7 @@ void GreenSolver::value_extent(const double* values, Index channels, Index first
 }
 
 void GreenSolver::solve_into(const double* values, Index channels, FieldSink& sink) const {
-  const std::size_t n = at(core_->size());
+  const std::size_t rows = at(core_->unknown_count()), n = at(core_->size());
   if (state().base || is_refined()) return solve_copied(*this, *core_, values, channels, sink);
   const Span<const Index> position = system_.factor().position(), order = system_.factor().order();
   const bool one_component = state().sites_of.size() == 1;
@@ -89,9 +98,9 @@ void GreenSolver::solve_into(const double* values, Index channels, FieldSink& si
   for (Index first = 0; first < channels; first += channel_block) {
     const Index count = std::min(channel_block, channels - first);
     const std::size_t m = at(count);
-    Workspace z(core_->workspaces, n * m);
+    Workspace z(core_->workspaces, rows * m);
     system_.sweep(values, channels, first, count, answer, z.data());
-    for_ranges(*core_->jobs, n, piece, [&](std::size_t begin, std::size_t end) {
+    for_ranges(*core_->jobs, rows, piece, [&](std::size_t begin, std::size_t end) {
       if (one_component && m == 1) {
         const double shift = answer.constant[0];
         for (std::size_t row = begin; row < end; ++row) z[row] += shift;
@@ -104,6 +113,7 @@ void GreenSolver::solve_into(const double* values, Index channels, FieldSink& si
         return;
       }
       for (std::size_t row = begin; row < end; ++row) {
+        if (at(order[row]) >= n) continue;  // its vertex went
         const std::size_t c = one_component ? 0 : at(core_->mesh.component[at(order[row])]);
         for (std::size_t q = 0; q < m; ++q) {
           double& u = z[row * m + q];
@@ -131,7 +141,7 @@ void GreenSolver::write_field(const double* z, Index channels, Index first, Inde
 }
 
 void GreenSolver::solve(const double* values, Index channels, double* field, double* flux) const {
-  const std::size_t n = at(core_->size()), stride = at(channels);
+  const std::size_t rows = at(core_->unknown_count()), n = at(core_->size()), stride = at(channels);
   Answer answer(memory());
   // The flux of a site that the factor eliminates comes from the field. A refinement step starts from the field too.
   const bool needs_field = flux && !field && (state().base || is_refined());
@@ -144,7 +154,7 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
       for (std::size_t slot = 0; flux && slot < state().entries.size(); ++slot)
         std::copy_n(answer.slot.data() + slot * m, m, flux + slot * stride + at(first));
     };
-    Workspace z(core_->workspaces, field ? n * m : 0);
+    Workspace z(core_->workspaces, field ? rows * m : 0);
     if (!field) {
       system_.find_centres(values, channels, first, count, answer);
       system_.solve_dense(values, channels, first, count, nullptr, answer);
@@ -208,7 +218,7 @@ void GreenSolver::solve_at(const double* values, Index channels, Span<const Inde
     const std::size_t m = at(count);
     system_.find_centres(values, channels, first, count, answer);
     system_.solve_dense(values, channels, first, count, nullptr, answer);
-    Workspace z(core_->zeroed_workspaces, n * m);
+    Workspace z(core_->zeroed_workspaces, at(core_->unknown_count()) * m);
     z.soil();
     system_.combine(answer, count, z.data());
     core_->factor->backward_at(vertices, z.data(), count);

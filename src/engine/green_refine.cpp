@@ -39,6 +39,7 @@ void GreenSolver::clear_answer(Index count, Answer& next) const {
 void GreenSolver::solve_right(double* z, Index count, Answer& next, const Step& step, bool dense_only) const {
   const std::size_t n = at(core_->size()), m = at(count);
   const Span<const Index> position = system_.factor().position();
+  for (std::size_t v = n; v < position.size(); ++v) std::fill_n(z + at(position[v]) * m, m, 0.0);  // vertices that went
   const auto r = [&](Index v) { return z + at(position[at(v)]) * m; };
   // Vertices of eliminated sites are not in the factor. If the site still constrains the field, its vertex has no
   // equation. If the site was removed, the equation is a row of the dense system.
@@ -173,7 +174,7 @@ void GreenSolver::respond(const double* load, const double* values, Index channe
   const EliminatedBase* base = state().base.get();
   // The flux of a site that the factor eliminates comes from the field.
   const bool needs_field = !field && base;
-  Workspace z(core_->workspaces, n * m), own(core_->workspaces, needs_field ? n * m : 0);
+  Workspace z(core_->workspaces, at(core_->unknown_count()) * m), own(core_->workspaces, needs_field ? n * m : 0);
   if (needs_field) field = own.data();
   Answer next(memory());
   clear_answer(channels, next);
@@ -213,7 +214,8 @@ void GreenSolver::respond(const double* load, const double* values, Index channe
 bool GreenSolver::correct(const double* values, Index channels, const double* field, const double* flux, double* change,
                           double* flux_change) const {
   const std::size_t n = at(core_->size()), stride = at(channels);
-  Workspace copy(core_->workspaces, n * stride), z(core_->workspaces, n * at(std::min(channels, channel_block)));
+  Workspace copy(core_->workspaces, n * stride),
+      z(core_->workspaces, at(core_->unknown_count()) * at(std::min(channels, channel_block)));
   std::copy_n(field, n * stride, copy.data());
   Answer answer(memory());
   for (Index first = 0; first < channels; first += channel_block) {

@@ -187,7 +187,7 @@ void ScreenedOperator::place_sites(const ConstraintSystem& system, const Block& 
     if (!state.entries[slot].used()) continue;
     for (std::size_t c = 0; c < m; ++c) missing[slot * m + c] -= mean[at(state.entries[slot].site.component) * m + c];
   }
-  Workspace z(core->workspaces, n * m);
+  Workspace z(core->workspaces, at(core->unknown_count()) * m);
   system.sweep(missing.data(), block.count, 0, block.count, answer, z.data());
   for (std::size_t slot = 0; block.flux && slot < slots; ++slot)
     std::copy_n(answer.slot.data() + slot * m, m, block.flux + slot * block.flux_stride);

@@ -219,9 +219,30 @@ void check_value(double value, std::uint32_t position, std::int32_t channel) {
 
 }  // namespace
 
-void SiteSet::take_components(const Core& core) noexcept {
-  for (Slot& slot : slots_)
-    if (slot.used()) slot.site.component = core.mesh.component[at(slot.site.vertex[0])];
+void SiteSet::take_core(const Core& before, const Core& core) {
+  const Mesh &old = before.mesh, &mesh = core.mesh;
+  const bool same = old.given_of_inner.data() == mesh.given_of_inner.data();
+  const auto number = [&](std::int32_t v, std::size_t slot) {
+    if (same) return v;
+    const std::int32_t given = old.given_of_inner[at(v)], now = mesh.inner_of_given[at(given)];
+    const std::size_t site = slots_[slot].owner >= 0 ? at(slots_[slot].owner) : slot;
+    if (now == Mesh::none)
+      fail(HF_ERROR_CONFLICT, static_cast<std::uint32_t>(site),
+           "site %zu lies at vertex %d, which has no triangle on that surface; move or remove the site first", site,
+           given);
+    return now;
+  };
+  for (std::size_t s = 0; s < slots_.size(); ++s) {
+    Site& site = slots_[s].site;
+    if (!slots_[s].used()) continue;
+    for (std::int32_t& v : site.vertex)
+      if (v >= 0) v = number(v, s);
+    site.component = mesh.component[at(site.vertex[0])];
+  }
+  if (same) return;
+  for (AtVertex& held : by_vertex_) held.vertex = number(held.vertex, at(held.slot));
+  std::sort(by_vertex_.begin(), by_vertex_.end(),
+            [](const AtVertex& a, const AtVertex& b) { return a.vertex < b.vertex; });
 }
 
 void SiteSet::set_values(std::uint32_t count, const std::uint32_t* sites, const double* values) {

@@ -67,8 +67,9 @@ class SiteSet {
     const double* stiffness = nullptr;  // null or 0: hard
     const double* radii = nullptr;      // geodesic, in the unit of the mesh; null or 0: points
   };
-  // Gives the sites the components of another core of the same mesh.
-  void take_components(const Core& core) noexcept;
+  // Gives the sites the vertices and components of another core of the same family (Geometry::is_kin). A site with a
+  // radius keeps the vertices that it holds. Throws HF_ERROR_CONFLICT (index: the site) where a vertex went.
+  void take_core(const Core& before, const Core& core);
   // Appends the numbers of the new sites.
   void add(const Core& core, const Places& places, const Holds& holds, std::uint32_t limit,
            Vector<std::uint32_t>& out_sites);

@@ -1,9 +1,13 @@
 #include "engine/surface.h"
 
-#include "engine/link_change.h"
 #include "engine/edited_core.h"
+#include "engine/link_change.h"
 
 namespace hf_inner {
+
+namespace {
+constexpr std::size_t unlinked_slot = 3;  // after those of the kinds of field
+}  // namespace
 
 // Runs when the last user of an operator is gone.
 struct Surface::Forget {
@@ -37,13 +41,16 @@ Surface::Surface(std::shared_ptr<const Surface> from, SurfaceEdit edit)
   } else if (geometry_ == origin_->geometry_) {
     plain_ = origin_;
   } else {
-    plain_ = make_owner_in<Surface>(geometry_->memory, origin_, SurfaceEdit{nullptr, geometry_});
+    const std::shared_ptr<const Surface> plain = from->plain_ ? from->plain_ : from->stiffness() ? origin_ : from;
+    plain_ = make_owner_in<Surface>(geometry_->memory, plain, SurfaceEdit{nullptr, geometry_});
   }
 }
 
 std::shared_ptr<const Geometry> Surface::geometry_of(std::shared_ptr<const Links> links) const {
-  for (const std::shared_ptr<const Geometry>& known : {geometry_, origin_ ? origin_->geometry_ : geometry_})
-    if (same_links(known->links.get(), links.get())) return known;
+  for (const std::shared_ptr<const Geometry>& known : {geometry_, origin_ ? origin_->geometry_ : geometry_}) {
+    if (&known->unlinked() == &geometry_->unlinked() && same_links(known->links.get(), links.get())) return known;
+  }
+  if (links->links.empty() && geometry_->unlinked().is_patched) return unlinked_geometry();
   return Geometry::relinked(geometry_, std::move(links));
 }
 
@@ -53,10 +60,10 @@ std::shared_ptr<const Core> Surface::core(FieldKind kind) const {
 }
 
 std::shared_ptr<const Core> Surface::unlinked_core() const {
-  if (origin_) return origin_->unlinked_core();
-  if (!geometry_->plain) return core(FieldKind::harmonic);
-  constexpr std::size_t unlinked_slot = 3;
-  return make_core(unlinked_slot, geometry_->plain, FieldKind::harmonic);
+  const bool patched = geometry_->unlinked().is_patched;  // a factor beside another one has other rows
+  if (origin_ && !patched) return origin_->unlinked_core();
+  if (!geometry_->plain && !patched) return core(FieldKind::harmonic);
+  return make_core(unlinked_slot, unlinked_geometry(), FieldKind::harmonic);
 }
 
 std::shared_ptr<const Core> Surface::make_core(std::size_t slot, std::shared_ptr<const Geometry> geometry,
@@ -68,7 +75,7 @@ std::shared_ptr<const Core> Surface::make_core(std::size_t slot, std::shared_ptr
   }
   const auto make = [&] {
     // beside the factor of the surface before its edits, which a solver or a pose may have
-    if (origin_ && kind == FieldKind::harmonic && geometry == geometry_)
+    if (origin_ && kind == FieldKind::harmonic && slot != unlinked_slot)
       return edit_(origin_->core(kind), SurfaceEdit{own_->stiffness, geometry_}, 1);
     CoreOptions options;
     options.operator_kind = geometry->operator_kind;
@@ -76,7 +83,7 @@ std::shared_ptr<const Core> Surface::make_core(std::size_t slot, std::shared_ptr
     options.ordering = own_->ordering;
     options.flop_limit = own_->flop_limit;
     options.formed_valence = own_->formed_valence;
-    options.stiffness = own_->stiffness;
+    if (slot != unlinked_slot) options.stiffness = own_->stiffness;
     return Core::make(geometry, options);
   };
   const std::shared_ptr<const Core> core = make();

@@ -20,8 +20,8 @@ class Surface {
   // Makes the operator and factor of options.field_kind, or loads the factor from options.saved_factor.
   Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& options);
 
-  // Makes a surface with another stiffness or other links (edited_core.h), which shares the factor of `from`. Throws what
-  // edit_core throws.
+  // Makes a surface with another stiffness or other links (edited_core.h), which shares the factor of `from`. Throws
+  // what edit_core throws.
   Surface(std::shared_ptr<const Surface> from, SurfaceEdit edit);
 
   const Geometry& geometry() const noexcept { return *geometry_; }
@@ -31,6 +31,8 @@ class Surface {
   const Surface& unedited() const noexcept { return plain_ ? *plain_ : *this; }
   // Returns the geometry with these links. Equal links share the geometry of a surface before this one.
   std::shared_ptr<const Geometry> geometry_of(std::shared_ptr<const Links> links) const;
+  // Returns its geometry with other triangles. Throws what Geometry::patched throws.
+  std::shared_ptr<const Geometry> patched(const MeshPatch& patch) const { return Geometry::patched(geometry_, patch); }
   // By vertex; null: 1 everywhere.
   const Vector<double>* stiffness() const noexcept { return own_->stiffness.get(); }
   // Returns the geometry of the triangles alone, without links.

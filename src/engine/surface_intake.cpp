@@ -34,6 +34,11 @@ void check_limit(std::uint32_t count, std::uint32_t limit, const char* noun, con
   if (count > limit) fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u %s; the %s is %u", count, noun, name, limit);
 }
 
+void check_sum(std::uint32_t there, std::uint32_t more, std::uint32_t limit, const char* noun, const char* name) {
+  if (more > limit || there > limit - more)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u %s and %u new ones; the %s is %u", there, noun, more, name, limit);
+}
+
 }  // namespace
 
 hf_surface_desc options_of(const hf_graph_desc& desc) {
@@ -194,9 +199,48 @@ std::shared_ptr<const Geometry> read_link_edit(const hf_surface_edit_desc& desc,
   return before.geometry_of(edited_links(mesh, geometry.links.get(), removed, added, memory));
 }
 
+// Reads the triangles that go and come. Vertices keep their stiffness; new ones have 1.
+SurfaceEdit read_patch(const hf_surface_edit_desc& desc, const Surface& before, const hf_surface_info& info) {
+  if (desc.stiffness || desc.vertices || desc.vertex_count > 0 || desc.link_count > 0 || desc.removed_link_count > 0)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "one edit exchanges triangles, or changes stiffness and links; make two edits");
+  require_list(desc.removed_triangle_count, desc.removed_triangles, "removed_triangle_count", "removed_triangles");
+  require_list(desc.new_vertex_count, desc.new_positions, "new_vertex_count", "new_positions");
+  require_list(desc.new_triangle_count, desc.new_triangles, "new_triangle_count", "new_triangles");
+  const Geometry& old = before.geometry();
+  check_sum(old.mesh.report.vertex_count, desc.new_vertex_count, info.vertex_limit, "vertices", "vertex_limit");
+  if (info.triangle_limit != 0)
+    check_sum(old.mesh.report.triangle_count, desc.new_triangle_count, info.triangle_limit, "triangles",
+              "triangle_limit");
+  Vector<Vec3> positions(old.memory.get());
+  for (std::uint32_t v = 0; v < desc.new_vertex_count; ++v) {
+    const double* const p = desc.new_positions + std::size_t{3} * v;
+    positions.push_back({p[0], p[1], p[2]});
+  }
+  MeshPatch patch;
+  patch.removed = {desc.removed_triangles, desc.removed_triangle_count};
+  patch.positions = positions;
+  patch.triangles = {desc.new_triangles, std::size_t{3} * desc.new_triangle_count};
+  SurfaceEdit edit;
+  edit.geometry = before.patched(patch);
+  if (!before.stiffness()) return edit;
+  const Mesh &mesh = edit.geometry->mesh, &from = old.mesh;
+  auto stiffness = make_shared_in<Vector<double>>(*old.memory, mesh.positions.size(), 1.0);
+  for (std::size_t v = 0; v < stiffness->size(); ++v) {
+    const auto given = static_cast<std::size_t>(mesh.given_of_inner[v]);
+    const std::int32_t there = given < from.inner_of_given.size() ? from.inner_of_given[given] : Mesh::none;
+    if (there != Mesh::none) (*stiffness)[v] = (*before.stiffness())[static_cast<std::size_t>(there)];
+  }
+  edit.stiffness = stiffness;
+  return edit;
+}
+
 }  // namespace
 
-SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const Surface& before) {
+SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const Surface& before, const hf_surface_info& info) {
+  require_zero(desc.reserved);
+  if (desc.removed_triangle_count > 0 || desc.new_vertex_count > 0 || desc.new_triangle_count > 0)
+    return read_patch(desc, before, info);
   SurfaceEdit edit;
   const bool links = desc.link_count > 0 || desc.removed_link_count > 0;
   if (desc.stiffness || desc.vertices || desc.vertex_count > 0 || !links)

@@ -31,7 +31,7 @@ CoreOptions options_like(const Surface& other);
 // HF_ERROR_INVALID_ARGUMENT (another ordering, damaged bytes), HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER.
 void read_saved_factor(const hf_factor_desc& saved, std::int32_t ordering, CoreOptions& options);
 
-// Reads what a surface has after an edit. Throws as hf_surface_edit documents.
-SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const Surface& before);
+// Reads what a surface has after an edit. info: its limits. Throws as hf_surface_edit documents.
+SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const Surface& before, const hf_surface_info& info);
 
 }  // namespace hf_inner

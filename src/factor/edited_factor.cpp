@@ -146,6 +146,11 @@ class EditedFactor final : public Factor {
                                          Memory& memory, JobRunner& jobs) const override {
     return base_->refactor(matrix, eliminated, memory, jobs);
   }
+  std::shared_ptr<const Factor> refactor_in_order(const SymmetricMatrix& matrix, Span<const Index> order,
+                                                  Span<const std::uint8_t> eliminated, Memory& memory,
+                                                  JobRunner& jobs) const override {
+    return base_->refactor_in_order(matrix, order, eliminated, memory, jobs);
+  }
   void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
                    Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<Index> out_group,
                    Span<Index> out_column) const override;
@@ -157,11 +162,11 @@ class EditedFactor final : public Factor {
     clear_own(channels, z);
   }
   void project(const PathGroup& group, const double* z, Index channels, double* out) const override;
-  const Factor& path_base() const noexcept override { return *base_; }
+  const Factor& path_base() const noexcept override { return base_->path_base(); }
 
  protected:
   std::shared_ptr<const PathGroup> base_paths(std::shared_ptr<const PathGroup> group) const override {
-    return of(*group).shared_base();
+    return base_paths_of(*base_, of(*group).shared_base());
   }
   std::shared_ptr<const PathGroup> own_paths(std::shared_ptr<const PathGroup> base, const SparseColumns& columns,
                                              Memory& memory) const override;
@@ -498,7 +503,7 @@ void EditedFactor::solve_paths(const SparseColumns& columns, Memory& memory, Job
 
 std::shared_ptr<const PathGroup> EditedFactor::own_paths(std::shared_ptr<const PathGroup> base,
                                                          const SparseColumns& columns, Memory& memory) const {
-  return edited_paths(std::move(base), memory, [&](EditedPaths& group) {
+  return edited_paths(own_paths_of(*base_, std::move(base), columns, memory), memory, [&](EditedPaths& group) {
     for (std::size_t i = 0; i < at(columns.count()); ++i) add_inside(columns, i, i, group);
   });
 }

@@ -114,14 +114,14 @@ std::shared_ptr<Analysis> make_analysis(const SymmetricMatrix& matrix, const Fac
 }
 
 // The pattern of the factor of a matrix with another pattern, in the order of a present factor.
-std::shared_ptr<const Analysis> analysis_like(const SymmetricMatrix& matrix, const Analysis& present, Memory& memory) {
+std::shared_ptr<const Analysis> analysis_in_order(const SymmetricMatrix& matrix, Span<const std::int32_t> order,
+                                                  Ordering ordering, Memory& memory) {
   require_well_formed(matrix);
   const std::shared_ptr<Analysis> analysis = make_shared_in<Analysis>(memory);
-  const Buffer<std::int32_t>& order = present.symbolic.order;
-  analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
+  analyse(matrix, order, memory, analysis->symbolic);
   make_plan(analysis->symbolic, memory, analysis->plan);
   analysis->pattern_hash = hash_pattern(matrix);
-  analysis->ordering = present.ordering;
+  analysis->ordering = ordering;
   return analysis;
 }
 
@@ -254,11 +254,24 @@ std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& 
   require_finite(matrix);
   std::shared_ptr<const Analysis> analysis = analysis_;
   if (hash_pattern(matrix) != analysis->pattern_hash) {
-    analysis = analysis_like(matrix, *analysis_, memory);
+    const Buffer<std::int32_t>& order = analysis_->symbolic.order;
+    analysis = analysis_in_order(matrix, {order.data(), order.size()}, analysis_->ordering, memory);
   } else if (analysis->loaded) {
     require_well_formed(matrix);
     require_inside(matrix, symbolic(), memory);
   }
+  std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, std::move(analysis), memory);
+  factor->kernels_ = kernels_;
+  factor->compute(matrix, eliminated, default_lost_share, jobs);
+  return factor;
+}
+
+std::shared_ptr<const Factor> SupernodalFactor::refactor_in_order(const SymmetricMatrix& matrix,
+                                                                  Span<const std::int32_t> order,
+                                                                  Span<const std::uint8_t> eliminated, Memory& memory,
+                                                                  JobRunner& jobs) const {
+  require_finite(matrix);
+  std::shared_ptr<const Analysis> analysis = analysis_in_order(matrix, order, analysis_->ordering, memory);
   std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, std::move(analysis), memory);
   factor->kernels_ = kernels_;
   factor->compute(matrix, eliminated, default_lost_share, jobs);

@@ -117,6 +117,11 @@ class Factor {
   virtual std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
                                                  Memory& memory, JobRunner& jobs) const = 0;
 
+  // The same for a matrix of any size and pattern, in this order of its unknowns.
+  virtual std::shared_ptr<const Factor> refactor_in_order(const SymmetricMatrix& matrix, Span<const std::int32_t> order,
+                                                          Span<const std::uint8_t> eliminated, Memory& memory,
+                                                          JobRunner& jobs) const = 0;
+
   // Solves the elimination paths of a batch of columns and stores them in groups. The path of column i is column
   // out_column[i] of group out_group[i]. Cost: the sum of the paths' lengths.
   virtual void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
@@ -159,6 +164,14 @@ class Factor {
                                                      const SparseColumns& columns, Memory& memory) const {
     (void)columns, (void)memory;
     return base;
+  }
+  // The same of a factor inside this one.
+  static std::shared_ptr<const PathGroup> base_paths_of(const Factor& factor, std::shared_ptr<const PathGroup> group) {
+    return factor.base_paths(std::move(group));
+  }
+  static std::shared_ptr<const PathGroup> own_paths_of(const Factor& factor, std::shared_ptr<const PathGroup> base,
+                                                       const SparseColumns& columns, Memory& memory) {
+    return factor.own_paths(std::move(base), columns, memory);
   }
 };
 

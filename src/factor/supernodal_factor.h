@@ -57,6 +57,9 @@ class SupernodalFactor final : public Factor {
   void clear_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const override;
   std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
                                          Memory& memory, JobRunner& jobs) const override;
+  std::shared_ptr<const Factor> refactor_in_order(const SymmetricMatrix& matrix, Span<const std::int32_t> order,
+                                                  Span<const std::uint8_t> eliminated, Memory& memory,
+                                                  JobRunner& jobs) const override;
   void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
                    Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<std::int32_t> out_group,
                    Span<std::int32_t> out_column) const override;

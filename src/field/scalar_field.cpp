@@ -136,6 +136,9 @@ void ScalarField::move_to(std::shared_ptr<const Core> core) {
   if (!engine)
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a baseline stays on its surface; make the solver with hf_create");
   std::shared_ptr<const Screening> screening;
+  if (screening_ && core->mesh.given_of_inner.data() != core_->mesh.given_of_inner.data())
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "the solver is screened, and the surface has other triangles: take the screening off, move, and set it again");
   if (screening_) {
     const Vector<double>& target = screening_->target;
     screening =
@@ -143,7 +146,7 @@ void ScalarField::move_to(std::shared_ptr<const Core> core) {
     engine = make_owner_in<ScreenedSolver>(core->memory, screening);
   }
   SiteSet next(sites_, memory());
-  next.take_components(*core);
+  next.take_core(*core_, *core);
   sites_.swap(next);
   try {
     take_engine(std::move(engine));

@@ -96,44 +96,6 @@ void find_frame(const MeshInput& input, const Vector<Index>& representative, con
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the mesh is %g wide; scale it below 1e300", mesh.scale);
 }
 
-// Finds the smallest angle, which has the largest cotangent, and counts triangles of zero area.
-void measure_triangles(Mesh& mesh, JobRunner* jobs, Memory& memory) {
-  struct Found {
-    double cotangent = -std::numeric_limits<double>::infinity();
-    std::uint32_t degenerate = 0;
-  };
-  const std::size_t count = at(mesh.triangle_count()), pieces = (count + report_piece - 1) / report_piece;
-  Vector<Found> found(pieces, &memory);
-  const auto measure = [&](std::uint32_t p) {
-    Found own;
-    for (std::size_t t = p * report_piece; t < std::min(count, (p + std::size_t{1}) * report_piece); ++t) {
-      const Index* v = mesh.triangle(static_cast<Index>(t));
-      const Vec3 e[3] = {mesh.positions[at(v[1])] - mesh.positions[at(v[0])],
-                         mesh.positions[at(v[2])] - mesh.positions[at(v[1])],
-                         mesh.positions[at(v[0])] - mesh.positions[at(v[2])]};
-      const double area2 = norm(cross(e[0], e[2]));
-      const double longest = std::max({dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])});
-      for (int k = 0; k < 3; ++k) {
-        const double cosine = -dot(e[k], e[(k + 2) % 3]);
-        // A triangle without area has angles of 0 or pi. If two corners are at one place, the angle counts as 0.
-        const double cotangent =
-            area2 > 0 ? cosine / area2 : (cosine < 0 ? -1 : 1) * std::numeric_limits<double>::infinity();
-        own.cotangent = std::max(own.cotangent, cotangent);
-      }
-      own.degenerate += !(0.5 * area2 > zero_area * longest);
-    }
-    found[p] = own;
-  };
-  for_each(jobs, static_cast<std::uint32_t>(pieces), measure);
-  Found all;
-  for (const Found& own : found) {
-    all.cotangent = std::max(all.cotangent, own.cotangent);
-    all.degenerate += own.degenerate;
-  }
-  mesh.report.smallest_angle = arc_tangent(1.0, all.cotangent);
-  mesh.report.degenerate_triangle_count += all.degenerate;
-}
-
 // A usable triangle has three different corners after welding.
 void take_triangles(const MeshInput& input, const Vector<Index>& representative, Mesh& mesh) {
   mesh.triangle_of_given.assign(input.triangle_count, Mesh::none);
@@ -178,6 +140,44 @@ void renumber(const Vector<Index>& order, Mesh& mesh, Memory& memory) {
 }
 
 }  // namespace
+
+// The smallest angle has the largest cotangent.
+void measure_triangles(const Mesh& mesh, MeshReport& report, JobRunner* jobs, Memory& memory) {
+  struct Found {
+    double cotangent = -std::numeric_limits<double>::infinity();
+    std::uint32_t degenerate = 0;
+  };
+  const std::size_t count = at(mesh.triangle_count()), pieces = (count + report_piece - 1) / report_piece;
+  Vector<Found> found(pieces, &memory);
+  const auto measure = [&](std::uint32_t p) {
+    Found own;
+    for (std::size_t t = p * report_piece; t < std::min(count, (p + std::size_t{1}) * report_piece); ++t) {
+      const Index* v = mesh.triangle(static_cast<Index>(t));
+      const Vec3 e[3] = {mesh.positions[at(v[1])] - mesh.positions[at(v[0])],
+                         mesh.positions[at(v[2])] - mesh.positions[at(v[1])],
+                         mesh.positions[at(v[0])] - mesh.positions[at(v[2])]};
+      const double area2 = norm(cross(e[0], e[2]));
+      const double longest = std::max({dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])});
+      for (int k = 0; k < 3; ++k) {
+        const double cosine = -dot(e[k], e[(k + 2) % 3]);
+        // A triangle without area has angles of 0 or pi. If two corners are at one place, the angle counts as 0.
+        const double cotangent =
+            area2 > 0 ? cosine / area2 : (cosine < 0 ? -1 : 1) * std::numeric_limits<double>::infinity();
+        own.cotangent = std::max(own.cotangent, cotangent);
+      }
+      own.degenerate += !(0.5 * area2 > zero_area * longest);
+    }
+    found[p] = own;
+  };
+  for_each(jobs, static_cast<std::uint32_t>(pieces), measure);
+  Found all;
+  for (const Found& own : found) {
+    all.cotangent = std::max(all.cotangent, own.cotangent);
+    all.degenerate += own.degenerate;
+  }
+  report.smallest_angle = arc_tangent(1.0, all.cotangent);
+  report.degenerate_triangle_count += all.degenerate;
+}
 
 std::uint32_t Mesh::given_of_triangle(Index t) const noexcept {
   if (!faces.empty()) {
@@ -271,7 +271,7 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   }
 
   poll();
-  measure_triangles(mesh, jobs, memory);
+  measure_triangles(mesh, mesh.report, jobs, memory);
   return mesh;
 }
 

@@ -150,4 +150,7 @@ struct Mesh {
   MeshReport report;
 };
 
+// Finds the smallest angle of a mesh, and counts triangles of zero area that its intake did not set aside.
+void measure_triangles(const Mesh& mesh, MeshReport& report, JobRunner* jobs, Memory& memory);
+
 }  // namespace hf_inner

@@ -100,7 +100,7 @@ void Gradients::factorise_openings(const Core& factor, Memory& memory) {
   forces_.assign(4 * count, 0.0);
   if (count == 0) return;
   const Span<const std::int32_t> position = factor.factor->position();
-  const std::size_t n = at(factor.size()), width = static_cast<std::size_t>(opening_channels);
+  const std::size_t n = at(factor.unknown_count()), width = static_cast<std::size_t>(opening_channels);
   Buffer<double> matrix(memory, count * count);
   Workspace z(factor.workspaces, width * n);
   for (std::size_t first = 0; first < count; first += width) {
@@ -191,7 +191,7 @@ void Gradients::hold_openings(const Frame& frame, double* z) {
     forces_[4 * i + 3] = 0;
   }
   opening_factor_.solve(forces_.data());
-  const std::size_t numbers = 3 * at(factor.size());
+  const std::size_t numbers = 3 * at(factor.unknown_count());
   Workspace moved(factor.workspaces, numbers);
   std::fill(moved.data(), moved.data() + numbers, 0.0);
   for (std::size_t i = 0; i < openings_.size(); ++i) {

@@ -152,7 +152,8 @@ void Gradients::apply(const Frame& frame, Vec3* out) {
   };
   const SymmetricMatrix& k = factor.matrix();
   const Span<const std::int32_t> position = factor.factor->position();
-  Workspace z(factor.workspaces, 3 * count);
+  Workspace z(factor.workspaces, 3 * at(factor.unknown_count()));
+  std::fill_n(z.data(), 3 * at(factor.unknown_count()), 0.0);
   each([&](std::size_t v) {
     Vec3 sum;
     const Vec3 rest = rest_of(v);

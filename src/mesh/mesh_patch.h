@@ -1,0 +1,32 @@
+// Triangles that leave a mesh, and vertices and triangles that come in.
+//
+// Vertices and triangles of the caller keep their numbers. New ones follow. A removed triangle stays in the count and
+// is no usable one any more. A vertex whose last triangle left is isolated. New vertices are welded to no other: a cut
+// needs two vertices at one place. The frame (centre and scale) stays, so the numbers of the rest keep their bits.
+#pragma once
+#include "mesh/mesh.h"
+
+namespace hf_inner {
+
+struct MeshPatch {
+  Span<const std::uint32_t> removed;    // triangles of the caller
+  Span<const Vec3> positions;           // of the new vertices, as given
+  Span<const std::uint32_t> triangles;  // three vertices of the caller each
+  bool empty() const noexcept { return removed.empty() && positions.empty() && triangles.empty(); }
+};
+
+struct PatchedMesh {
+  explicit PatchedMesh(Memory& memory) : mesh(memory), number(&memory), touched(&memory) {}
+  Mesh mesh;
+  Vector<Index> number;   // by inner vertex of the mesh before: its number now, or none
+  Vector<Index> touched;  // inner vertices with other triangles than before, ascending
+  bool same_components = false;
+};
+
+// Throws HF_ERROR_UNSUPPORTED (a graph, or a mesh of polygons), HF_ERROR_OUT_OF_RANGE, HF_ERROR_CONFLICT (a triangle
+// listed twice, on another triangle, or not there any more), HF_ERROR_INVALID_ARGUMENT (equal corners),
+// HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE, HF_ERROR_EMPTY (no triangle is left), all with the position in its list as
+// index, or std::bad_alloc. Cost: O(n), a few passes over the triangles.
+PatchedMesh patched_mesh(const Mesh& before, const MeshPatch& patch, Memory& memory);
+
+}  // namespace hf_inner
