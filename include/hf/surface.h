@@ -387,11 +387,12 @@ typedef struct hf_surface_edit_desc {
   uint32_t removed_triangle_count;   /* entries of removed_triangles */
   uint32_t new_vertex_count;         /* entries of new_positions */
   uint32_t new_triangle_count;       /* entries of new_triangles */
-  uint32_t reserved;                 /* 0 */
+  uint32_t cut_edge_count;           /* entries of cut_edges */
   const uint32_t* removed_triangles; /* [removed_triangle_count] triangles of your mesh that go */
   const double* new_positions;       /* [new_vertex_count][3] vertices that come in, numbered after those there are */
   const uint32_t* new_triangles;     /* [new_triangle_count][3] triangles that come in, numbered after those there are;
                                         corners are vertices of your mesh and new ones */
+  const uint32_t* cut_edges;         /* [cut_edge_count][2] edges of triangles, two vertices each, to cut along */
   hf_progress progress;              /* NULL, or an object to poll and cancel through */
 } hf_surface_edit_desc;
 

@@ -66,15 +66,26 @@ class Neighbourhood {
         touched.insert(touched.end(), plain_.mesh.triangle(t), plain_.mesh.triangle(t) + 3);
         continue;
       }
-      added_.push_back(now[g]);
-      for (int k = 0; k < 3; ++k) {
-        const Index v = after_.mesh.triangle(now[g])[k], u = out_.map.from[at(v)];
-        (u == Mesh::none ? fresh_ : touched).push_back(u == Mesh::none ? v : u);
-      }
+      take_added(now[g]);
     }
-    for (Vector<Index>* list : {&touched_, &fresh_, &gone_}) {
+    for (std::size_t i = plain_.mesh.cuts.size(); i < after_.mesh.cuts.size(); ++i) {
+      const std::size_t g = at(after_.mesh.cuts[i].triangle);
+      if (g >= before.size() || before[g] == Mesh::none || now[g] == Mesh::none) continue;
+      gone_.push_back(before[g]);
+      touched.insert(touched.end(), plain_.mesh.triangle(before[g]), plain_.mesh.triangle(before[g]) + 3);
+      take_added(now[g]);
+    }
+    for (Vector<Index>* list : {&touched_, &fresh_, &gone_, &added_}) {
       std::sort(list->begin(), list->end());
       list->erase(std::unique(list->begin(), list->end()), list->end());
+    }
+  }
+
+  void take_added(Index t) {
+    added_.push_back(t);
+    for (int k = 0; k < 3; ++k) {
+      const Index v = after_.mesh.triangle(t)[k], u = out_.map.from[at(v)];
+      (u == Mesh::none ? fresh_ : touched_).push_back(u == Mesh::none ? v : u);
     }
   }
 

@@ -7,6 +7,7 @@
 #include "engine/link_change.h"
 #include "factor/factor_bytes.h"
 #include "factor/ordering.h"
+#include "mesh/cut_edges.h"
 #include "mesh/link_intake.h"
 #include "mesh/places.h"
 
@@ -203,10 +204,14 @@ std::shared_ptr<const Geometry> read_link_edit(const hf_surface_edit_desc& desc,
 SurfaceEdit read_patch(const hf_surface_edit_desc& desc, const Surface& before, const hf_surface_info& info) {
   if (desc.stiffness || desc.vertices || desc.vertex_count > 0 || desc.link_count > 0 || desc.removed_link_count > 0)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "one edit exchanges triangles, or changes stiffness and links; make two edits");
-  require_list(desc.removed_triangle_count, desc.removed_triangles, "removed_triangle_count", "removed_triangles");
-  require_list(desc.new_vertex_count, desc.new_positions, "new_vertex_count", "new_positions");
-  require_list(desc.new_triangle_count, desc.new_triangles, "new_triangle_count", "new_triangles");
+         "one edit cuts or exchanges triangles, or changes stiffness and links; make two edits");
+  const bool exchanges = desc.removed_triangle_count > 0 || desc.new_vertex_count > 0 || desc.new_triangle_count > 0;
+  if (desc.cut_edge_count > 0 && exchanges)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "one edit cuts, or exchanges triangles; make two edits");
+  if (desc.cut_edge_count > 0) require(desc.cut_edges, "cut_edges");
+  if (desc.removed_triangle_count > 0) require(desc.removed_triangles, "removed_triangles");
+  if (desc.new_vertex_count > 0) require(desc.new_positions, "new_positions");
+  if (desc.new_triangle_count > 0) require(desc.new_triangles, "new_triangles");
   const Geometry& old = before.geometry();
   check_sum(old.mesh.report.vertex_count, desc.new_vertex_count, info.vertex_limit, "vertices", "vertex_limit");
   if (info.triangle_limit != 0)
@@ -221,6 +226,14 @@ SurfaceEdit read_patch(const hf_surface_edit_desc& desc, const Surface& before, 
   patch.removed = {desc.removed_triangles, desc.removed_triangle_count};
   patch.positions = positions;
   patch.triangles = {desc.new_triangles, std::size_t{3} * desc.new_triangle_count};
+  Vector<Mesh::CutCorner> cuts(old.memory.get());
+  if (desc.cut_edge_count > 0)
+    cuts = cut_edges(old.mesh, {desc.cut_edges, std::size_t{2} * desc.cut_edge_count}, *old.memory);
+  patch.cuts = cuts;
+  const std::uint32_t count = old.mesh.report.vertex_count;
+  if (!cuts.empty())
+    check_sum(count, static_cast<std::uint32_t>(cuts.back().vertex) + 1 - count, info.vertex_limit, "vertices",
+              "vertex_limit");
   SurfaceEdit edit;
   edit.geometry = before.patched(patch);
   if (!before.stiffness()) return edit;
@@ -238,8 +251,8 @@ SurfaceEdit read_patch(const hf_surface_edit_desc& desc, const Surface& before, 
 }  // namespace
 
 SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const Surface& before, const hf_surface_info& info) {
-  require_zero(desc.reserved);
-  if (desc.removed_triangle_count > 0 || desc.new_vertex_count > 0 || desc.new_triangle_count > 0)
+  if (desc.removed_triangle_count > 0 || desc.new_vertex_count > 0 || desc.new_triangle_count > 0 ||
+      desc.cut_edge_count > 0)
     return read_patch(desc, before, info);
   SurfaceEdit edit;
   const bool links = desc.link_count > 0 || desc.removed_link_count > 0;

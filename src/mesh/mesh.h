@@ -82,7 +82,8 @@ struct Mesh {
         turned(memory),
         faces(memory),
         component(memory),
-        isolated(memory) {}
+        isolated(memory),
+        cuts(memory) {}
 
   // Throws HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE (index = triangle or face), HF_ERROR_NON_FINITE (index = vertex),
   // HF_ERROR_INVALID_ARGUMENT, or std::bad_alloc. jobs: threads to use; null = the calling thread, with the same
@@ -145,6 +146,12 @@ struct Mesh {
   };
   // The given vertices without a usable triangle, ascending. They keep their places when the rest is posed.
   SharedVector<Isolated> isolated;
+  // A corner that a cut gave another vertex (cut_edges.h). All numbers are the caller's.
+  struct CutCorner {
+    std::int32_t triangle, corner, vertex, copied;
+  };
+  // All cuts since the mesh was made, in their order.
+  SharedVector<CutCorner> cuts;
   Vec3 centre;
   double scale = 1;
   MeshReport report;

@@ -34,11 +34,17 @@ class MeshPatcher {
         around_(&memory),
         added_(&memory),
         given_(&memory),
+        cut_(&memory),
+        cut_corners_(&memory),
+        copies_(&memory),
+        copied_(&memory),
         doubled_(&memory) {}
 
   PatchedMesh make() {
+    list_doubled();
     read_removed();
     read_added();
+    read_cuts();
     find_around();
     number_vertices();
     put_vertices();
@@ -50,9 +56,23 @@ class MeshPatcher {
   }
 
  private:
-  void read_removed() {
+  static constexpr std::uint8_t is_cut = 2;  // in gone_; a removed triangle has 1
+  static constexpr Index first_copy = -2;    // corners of cut triangles: -2 - i for the i-th copy
+
+  void list_doubled() {
     for (const Mesh::Doubled& one : before_.doubled) doubled_.push_back(Corners(one.corner));
     std::sort(doubled_.begin(), doubled_.end());
+  }
+  // The corners of a triangle that changes are touched.
+  void touch(Index t, std::uint32_t i, const char* list) {
+    const Index* const v = before_.triangle(t);
+    if (std::binary_search(doubled_.begin(), doubled_.end(), Corners(v)))
+      fail(HF_ERROR_UNSUPPORTED, i, "entry %u of %s: triangle %u lies on another one; leave one of them out of the mesh",
+           i, list, before_.given_of_triangle(t));
+    for (int k = 0; k < 3; ++k) touched_[at(v[k])] = 1;
+  }
+
+  void read_removed() {
     for (std::uint32_t i = 0; i < patch_.removed.size(); ++i) {
       const std::uint32_t given = patch_.removed[i];
       if (given >= before_.report.triangle_count)
@@ -62,22 +82,17 @@ class MeshPatcher {
       if (t == Mesh::none)
         fail(HF_ERROR_NOT_FOUND, i, "entry %u of removed_triangles: triangle %u has no area or was removed before", i,
              given);
-      const Index* const v = before_.triangle(t);
-      if (std::binary_search(doubled_.begin(), doubled_.end(), Corners(v)))
-        fail(HF_ERROR_UNSUPPORTED, i,
-             "entry %u of removed_triangles: triangle %u lies on another one; leave one of them out of the mesh", i,
-             given);
+      touch(t, i, "removed_triangles");
       if (gone_[at(t)])
         fail(HF_ERROR_CONFLICT, i, "entry %u of removed_triangles: triangle %u is listed twice", i, given);
       gone_[at(t)] = 1;
-      for (int k = 0; k < 3; ++k) touched_[at(v[k])] = 1;
     }
   }
 
   // Turns the corners of new triangles into inner vertices before, or -2 - p with p the place in given_.
   void read_added() {
     const std::uint32_t old = before_.report.vertex_count;
-    const std::size_t count = old + patch_.positions.size(), triangles = patch_.triangles.size() / 3;
+    const std::size_t count = old + patch_.positions.size() + patch_.cuts.size(), triangles = patch_.triangles.size() / 3;
     if (count > most_elements || before_.report.triangle_count + triangles > most_elements)
       fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu vertices and %zu triangles; at most %u are supported", count,
            before_.report.triangle_count + triangles, most_elements);
@@ -88,10 +103,10 @@ class MeshPatcher {
     added_.assign(patch_.triangles.begin(), patch_.triangles.end());
     for (std::size_t c = 0; c < added_.size(); ++c) {
       const auto given = static_cast<std::uint32_t>(added_[c]);
-      if (given >= count)
+      if (given >= old + patch_.positions.size())
         fail(HF_ERROR_OUT_OF_RANGE, static_cast<std::uint32_t>(c / 3),
              "new triangle %zu: corner %zu is vertex %u, but there are %zu vertices with the new ones", c / 3, c % 3,
-             given, count);
+             given, old + patch_.positions.size());
       if (given >= old || before_.inner_of_given[given] == Mesh::none) given_.push_back(static_cast<Index>(given));
     }
     std::sort(given_.begin(), given_.end());
@@ -113,6 +128,29 @@ class MeshPatcher {
     }
   }
 
+  // A triangle that is cut has its new corners in cut_corners_.
+  void read_cuts() {
+    for (const Mesh::CutCorner& cut : patch_.cuts) {
+      const Index t = before_.triangle_of_given[at(cut.triangle)];
+      touch(t, HF_NO_INDEX, "cut_edges");
+      gone_[at(t)] = is_cut;
+      cut_.push_back(t);
+      if (copied_.empty() || copies_.back() != cut.vertex) {
+        copies_.push_back(cut.vertex);
+        copied_.push_back(before_.inner_of_given[at(cut.copied)]);
+      }
+    }
+    std::sort(cut_.begin(), cut_.end());
+    cut_.erase(std::unique(cut_.begin(), cut_.end()), cut_.end());
+    for (const Index t : cut_) cut_corners_.insert(cut_corners_.end(), before_.triangle(t), before_.triangle(t) + 3);
+    for (const Mesh::CutCorner& cut : patch_.cuts) {
+      const Index t = before_.triangle_of_given[at(cut.triangle)];
+      const auto there = std::lower_bound(cut_.begin(), cut_.end(), t);
+      cut_corners_[3 * static_cast<std::size_t>(there - cut_.begin()) + at(cut.corner)] =
+          first_copy - static_cast<Index>(std::lower_bound(copies_.begin(), copies_.end(), cut.vertex) - copies_.begin());
+    }
+  }
+
   // The triangles that stay and have a touched corner.
   void find_around() {
     const Index* v = before_.corners.data();
@@ -126,16 +164,20 @@ class MeshPatcher {
     for (const Index t : around_) {
       for (int k = 0; k < 3; ++k) held[at(before_.triangle(t)[k])] = 1;
     }
-    for (const Index v : added_)
-      if (v >= 0) held[at(v)] = 1;
+    for (const Vector<Index>* corners : {&added_, &cut_corners_}) {
+      for (const Index v : *corners)
+        if (v >= 0) held[at(v)] = 1;
+    }
     out_.number.resize(before_.positions.size());
     Index next = 0;
     for (std::size_t v = 0; v < out_.number.size(); ++v) out_.number[v] = touched_[v] && !held[v] ? Mesh::none : next++;
     first_new_ = next;
     for (std::size_t v = 0; v < out_.number.size(); ++v)
       if (touched_[v] && held[v]) out_.touched.push_back(out_.number[v]);
-    for (std::size_t i = 0; i < given_.size(); ++i) out_.touched.push_back(first_new_ + static_cast<Index>(i));
+    const Index copy = first_new_ + static_cast<Index>(given_.size());
+    for (Index v = first_new_; v < copy + static_cast<Index>(copies_.size()); ++v) out_.touched.push_back(v);
     for (Index& v : added_) v = v >= 0 ? out_.number[at(v)] : first_new_ + (-2 - v);
+    for (Index& v : cut_corners_) v = v >= 0 ? out_.number[at(v)] : copy + (first_copy - v);
   }
 
   void put_vertices() {
@@ -143,7 +185,8 @@ class MeshPatcher {
     mesh.report = before_.report;
     mesh.centre = before_.centre;
     mesh.scale = before_.scale;
-    const std::size_t count = at(first_new_) + given_.size(), old = before_.report.vertex_count;
+    const std::size_t first = at(first_new_) + given_.size(), count = first + copies_.size(),
+                      old = before_.report.vertex_count;
     mesh.positions.resize(count);
     mesh.given_of_inner.resize(count);
     for (std::size_t v = 0; v < out_.number.size(); ++v) {
@@ -152,7 +195,7 @@ class MeshPatcher {
       mesh.positions[at(to)] = before_.positions[v];
       mesh.given_of_inner[at(to)] = before_.given_of_inner[v];
     }
-    mesh.inner_of_given.resize(old + patch_.positions.size());
+    mesh.inner_of_given.resize(old + patch_.positions.size() + copies_.size());
     Vector<Mesh::Isolated> isolated(&memory_);
     auto known = before_.isolated.begin();
     for (std::size_t g = 0; g < old; ++g) {
@@ -167,6 +210,11 @@ class MeshPatcher {
     for (std::size_t i = 0; i < patch_.positions.size(); ++i) {
       mesh.inner_of_given[old + i] = Mesh::none;
       isolated.push_back({static_cast<Index>(old + i), patch_.positions[i]});
+    }
+    for (std::size_t i = 0; i < copies_.size(); ++i) {
+      mesh.positions[first + i] = before_.positions[at(copied_[i])];
+      mesh.given_of_inner[first + i] = copies_[i];
+      mesh.inner_of_given[at(copies_[i])] = static_cast<Index>(first + i);
     }
     // vertices that a new triangle takes are isolated no more
     auto taken = given_.begin();
@@ -191,17 +239,18 @@ class MeshPatcher {
     Vector<Index> number(at(count), &memory_);
     std::size_t kept = 0;
     for (std::size_t t = 0; t < at(count); ++t) {
-      number[t] = gone_[t] ? Mesh::none : static_cast<Index>(kept);
-      kept += !gone_[t];
+      number[t] = gone_[t] == 1 ? Mesh::none : static_cast<Index>(kept);
+      kept += gone_[t] != 1;
     }
     if (kept == 0 && added_.empty())
       fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the edit removes every triangle; nothing is left of the surface");
     mesh.corners.resize(3 * kept + added_.size());
     Index* out = mesh.corners.data();
     const Index* corner = before_.corners.data();
+    const Index* cut = cut_corners_.data();
     for (std::size_t t = 0; t < at(count); ++t, corner += 3) {
-      if (gone_[t]) continue;
-      for (int k = 0; k < 3; ++k) *out++ = out_.number[at(corner[k])];
+      if (gone_[t] == 1) continue;
+      for (int k = 0; k < 3; ++k) *out++ = gone_[t] == is_cut ? *cut++ : out_.number[at(corner[k])];
     }
     std::copy(added_.begin(), added_.end(), out);
     const std::size_t given = before_.triangle_of_given.size();
@@ -212,6 +261,8 @@ class MeshPatcher {
     }
     for (std::size_t i = 0; i < added_.size() / 3; ++i)
       mesh.triangle_of_given[given + i] = static_cast<Index>(kept + i);
+    mesh.cuts.assign(before_.cuts.begin(), before_.cuts.end());
+    mesh.cuts.append(patch_.cuts.begin(), patch_.cuts.end());
     for (Mesh::Doubled one : before_.doubled) {
       for (Index& v : one.corner) v = out_.number[at(v)];
       mesh.doubled.push_back(one);
@@ -260,10 +311,12 @@ class MeshPatcher {
       }
       sides.insert(sides.end(), {v[0], v[1], v[1], v[2]});
     }
-    for (std::size_t i = 0; i < added_.size(); i += 3) {
-      Index v[3];
-      for (std::size_t k = 0; k < 3; ++k) v[k] = number(added_[i + k], Mesh::none);
-      sides.insert(sides.end(), {v[0], v[1], v[1], v[2]});
+    for (const Vector<Index>* corners : {&added_, &cut_corners_}) {
+      for (std::size_t i = 0; i < corners->size(); i += 3) {
+        Index v[3];
+        for (std::size_t k = 0; k < 3; ++k) v[k] = number((*corners)[i + k], Mesh::none);
+        sides.insert(sides.end(), {v[0], v[1], v[1], v[2]});
+      }
     }
     UnionFind sets(old.size(), memory_);
     for (std::size_t i = 0; i < sides.size(); i += 2) sets.unite(sides[i], sides[i + 1]);
@@ -315,8 +368,9 @@ class MeshPatcher {
   void count() {
     Mesh& mesh = out_.mesh;
     MeshReport& report = mesh.report;
-    report.vertex_count += static_cast<std::uint32_t>(patch_.positions.size());
-    report.welded_vertex_count += static_cast<std::uint32_t>(patch_.positions.size());
+    const auto more = static_cast<std::uint32_t>(patch_.positions.size() + copies_.size());
+    report.vertex_count += more;
+    report.welded_vertex_count += more;
     report.triangle_count += static_cast<std::uint32_t>(added_.size() / 3);
     report.isolated_vertex_count = static_cast<std::uint32_t>(mesh.isolated.size());
   }
@@ -328,6 +382,8 @@ class MeshPatcher {
   Vector<std::uint8_t> gone_, touched_;  // by triangle and by vertex before
   Vector<Index> around_, added_;         // triangles before; corners of the new ones
   Vector<Index> given_;                  // vertices of the caller that become inner ones, ascending
+  Vector<Index> cut_, cut_corners_;      // triangles before that are cut, ascending; their corners after
+  Vector<Index> copies_, copied_;        // the copies by the caller's number, ascending; inner vertices before
   Vector<Corners> doubled_;              // of the triangles that are set aside
   Index first_new_ = 0;
 };

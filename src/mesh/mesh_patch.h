@@ -1,4 +1,4 @@
-// Triangles that leave a mesh, and vertices and triangles that come in.
+// Triangles that leave a mesh, vertices and triangles that come in, and corners that take copies of their vertices.
 //
 // Vertices and triangles of the caller keep their numbers. New ones follow. A removed triangle stays in the count and
 // is no usable one any more. A vertex whose last triangle left is isolated. New vertices are welded to no other: a cut
@@ -12,7 +12,7 @@ struct MeshPatch {
   Span<const std::uint32_t> removed;    // triangles of the caller
   Span<const Vec3> positions;           // of the new vertices, as given
   Span<const std::uint32_t> triangles;  // three vertices of the caller each
-  bool empty() const noexcept { return removed.empty() && positions.empty() && triangles.empty(); }
+  Span<const Mesh::CutCorner> cuts;     // by copy; the copies are numbered after `positions`
 };
 
 struct PatchedMesh {

@@ -7,9 +7,11 @@
 #include <random>
 #include <set>
 
+#include "base/error.h"
 #include "engine/edited_core.h"
 #include "engine/patch_rows.h"
 #include "engine/site_solver.h"
+#include "mesh/cut_edges.h"
 #include "support/hard_meshes.h"
 #include "support/oracle.h"
 
@@ -63,6 +65,46 @@ class Model {
     added_.clear();
     added_positions_.clear();
     return out;
+  }
+
+  // Cuts along edges.
+  std::shared_ptr<const Geometry> cut(const Core& from, const std::vector<std::uint32_t>& edges) {
+    const auto cuts = hf_inner::cut_edges(from.mesh, {edges.data(), edges.size()}, *from.memory);
+    hf_inner::MeshPatch patch;
+    patch.cuts = cuts;
+    for (const Mesh::CutCorner& corner : cuts) {
+      std::uint32_t& v = mesh_.triangles[3 * at(corner.triangle) + at(corner.corner)];
+      EXPECT_EQ(v, static_cast<std::uint32_t>(corner.copied));
+      v = static_cast<std::uint32_t>(corner.vertex);
+      if (v < mesh_.vertex_count()) continue;
+      EXPECT_EQ(v, mesh_.vertex_count());
+      for (int k = 0; k < 3; ++k) mesh_.positions.push_back(mesh_.positions[3 * at(corner.copied) + at(k)]);
+    }
+    return Geometry::patched(from.geometry, patch);
+  }
+  // A walk along edges from a random vertex, without turning back.
+  std::vector<std::uint32_t> walk(std::mt19937& random, std::size_t length) const {
+    std::vector<std::uint32_t> edges;
+    std::set<std::uint32_t> seen;
+    std::uint32_t here = HF_NO_INDEX;
+    while (here == HF_NO_INDEX) {
+      const std::size_t t = random() % alive_.size();
+      if (alive_[t]) here = mesh_.triangles[3 * t];
+    }
+    while (edges.size() < 2 * length) {
+      seen.insert(here);
+      std::uint32_t next = HF_NO_INDEX;
+      for (std::size_t t = 0; t < alive_.size(); ++t) {
+        const std::uint32_t* const v = &mesh_.triangles[3 * t];
+        if (!alive_[t] || std::find(v, v + 3, here) == v + 3) continue;
+        for (int k = 0; k < 3; ++k)
+          if (seen.count(v[k]) == 0 && (next == HF_NO_INDEX || random() % 3 == 0)) next = v[k];
+      }
+      if (next == HF_NO_INDEX) break;
+      edges.insert(edges.end(), {here, next});
+      here = next;
+    }
+    return edges;
   }
 
   // A change of one kind at a random place.
@@ -263,11 +305,17 @@ TEST(PatchEdit, SequencesHaveTheFieldsOfFreshSurfaces) {
       hf_inner::CoreOptions options;
       options.operator_kind = kind;
       std::shared_ptr<const Core> core = make(model.now(), options);
-      for (int step = 0; step < 14; ++step) {
+      for (int step = 0; step < 16; ++step) {
         const std::string what = "operator " + std::to_string(static_cast<int>(kind)) + " most " +
                                  std::to_string(most) + " step " + std::to_string(step);
-        model.change(step % 7, random);
-        core = edit_core(core, {nullptr, model.apply(*core)}, most);
+        std::shared_ptr<const Geometry> geometry;
+        if (step % 8 == 7) {
+          geometry = model.cut(*core, model.walk(random, 6));
+        } else {
+          model.change(step % 8, random);
+          geometry = model.apply(*core);
+        }
+        core = edit_core(core, {nullptr, geometry}, most);
         const auto fresh = make(model.now(), options);
         expect_same_operator(*core, *fresh, what);
         const auto exact = field_of(fresh, *fresh);
@@ -277,6 +325,36 @@ TEST(PatchEdit, SequencesHaveTheFieldsOfFreshSurfaces) {
       }
     }
   }
+}
+
+// Where a cut ends: inside a surface, on its border, in a loop, and beside another fan.
+TEST(CutEdges, PartsWhatItShould) {
+  hf_test::PlainMesh mesh = hf_test::grid(4, 4);  // 5 x 5 vertices
+  const std::shared_ptr<const Core> core = make(mesh);
+  struct Case {
+    std::vector<std::uint32_t> edges;
+    std::size_t copies;
+    Index components;
+  };
+  const Case cases[] = {
+      {{6, 7, 7, 8}, 1, 1},                                            // inside: the middle parts
+      {{5, 6}, 1, 1},                                                  // from the border: its end there parts
+      {{10, 11, 11, 12, 12, 13, 13, 14}, 5, 2},                        // from border to border
+      {{6, 7, 7, 8, 8, 13, 13, 18, 18, 17, 17, 16, 16, 11, 11, 6}, 8, 2},  // a loop
+      {{11, 12, 12, 13, 7, 12, 12, 17}, 3, 1},                         // a cross: its middle is four
+      {{0, 1, 1, 2, 6, 7, 7, 12}, 1, 1},                               // the border itself parts nothing
+  };
+  for (const Case& one : cases) {
+    Model model(mesh);
+    const auto geometry = model.cut(*core, one.edges);
+    EXPECT_EQ(geometry->mesh.report.vertex_count - 25, one.copies);
+    EXPECT_EQ(geometry->mesh.component_count(), one.components);
+    const auto edited = edit_core(core, {nullptr, geometry}, always_rows);
+    expect_same_operator(*edited, *make(model.now()), "cut");
+  }
+  for (const std::vector<std::uint32_t>& edges :
+       {std::vector<std::uint32_t>{6, 7}, {0, 1}, {0, 12}, {3, 3}, {3, 25}, {1, 2, 20, 24}})
+    EXPECT_THROW(hf_inner::cut_edges(core->mesh, {edges.data(), edges.size()}, *core->memory), hf_inner::Error);
 }
 
 }  // namespace

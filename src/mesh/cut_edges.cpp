@@ -1,0 +1,133 @@
+#include "mesh/cut_edges.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/index.h"
+#include "mesh/place_reader.h"
+#include "mesh/places.h"
+#include "mesh/union_find.h"
+
+namespace hf_inner {
+namespace {
+
+struct Edge {
+  Index first, second;  // inner vertices, the smaller one first
+  std::uint32_t given;
+  bool operator<(const Edge& o) const noexcept { return first != o.first ? first < o.first : second < o.second; }
+};
+
+// A triangle at a vertex of the cut, with its next corners around it.
+struct Wing {
+  Index vertex, triangle, corner, next, last;
+};
+
+Vector<Edge> read_edges(const Mesh& mesh, Span<const std::uint32_t> edges, Memory& memory) {
+  Vector<Edge> out(&memory);
+  for (std::uint32_t i = 0; i < edges.size() / 2; ++i) {
+    Index end[2];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::uint32_t given = edges[2 * i + k];
+      if (given >= mesh.report.vertex_count)
+        fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of cut_edges names vertex %u; the surface has %u vertices", i, given,
+             mesh.report.vertex_count);
+      end[k] = usable_vertex(mesh, given, i, "cut_edges");
+    }
+    if (end[0] == end[1])
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of cut_edges: vertices %u and %u are one, or welded", i,
+           edges[2 * i], edges[2 * i + 1]);
+    out.push_back({std::min(end[0], end[1]), std::max(end[0], end[1]), i});
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// Parts the triangles at one vertex.
+class Fan {
+ public:
+  // given: by usable triangle, the triangle of the caller.
+  Fan(const Mesh& mesh, const Vector<Index>& given, Span<const Wing> wings, const Vector<Edge>& cut, Memory& memory)
+      : mesh_(mesh), given_(given), wings_(wings), cut_(cut), memory_(memory) {}
+
+  void part(Index& next_copy, Vector<Mesh::CutCorner>& out) const {
+    struct Side {
+      Index other, wing;
+      bool operator<(const Side& o) const noexcept { return other != o.other ? other < o.other : wing < o.wing; }
+    };
+    Vector<Side> sides(&memory_);
+    for (std::size_t w = 0; w < wings_.size(); ++w) {
+      sides.push_back({wings_[w].next, static_cast<Index>(w)});
+      sides.push_back({wings_[w].last, static_cast<Index>(w)});
+    }
+    std::sort(sides.begin(), sides.end());
+    UnionFind fans(wings_.size(), memory_), groups(wings_.size(), memory_);
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+      if (sides[i].other != sides[i - 1].other) continue;
+      fans.unite(sides[i].wing, sides[i - 1].wing);
+      if (!is_cut(wings_[0].vertex, sides[i].other)) groups.unite(sides[i].wing, sides[i - 1].wing);
+    }
+    // the lowest wing stands for its group, and the lowest group of a fan keeps the vertex
+    for (std::size_t g = 0; g < wings_.size(); ++g) {
+      const Index group = static_cast<Index>(g);
+      if (groups.find(group) != group || fans.find(group) == group) continue;
+      for (std::size_t w = g; w < wings_.size(); ++w) {
+        if (groups.find(static_cast<Index>(w)) != group) continue;
+        out.push_back({given_[at(wings_[w].triangle)], wings_[w].corner, next_copy,
+                       mesh_.given_of_inner[at(wings_[w].vertex)]});
+      }
+      ++next_copy;
+    }
+  }
+
+ private:
+  bool is_cut(Index a, Index b) const noexcept {
+    return std::binary_search(cut_.begin(), cut_.end(), Edge{std::min(a, b), std::max(a, b), 0});
+  }
+  const Mesh& mesh_;
+  const Vector<Index>& given_;
+  Span<const Wing> wings_;
+  const Vector<Edge>& cut_;
+  Memory& memory_;
+};
+
+}  // namespace
+
+Vector<Mesh::CutCorner> cut_edges(const Mesh& mesh, Span<const std::uint32_t> edges, Memory& memory) {
+  require_triangles(mesh, "a cut", HF_NO_INDEX);
+  const Vector<Edge> cut = read_edges(mesh, edges, memory);
+  Vector<std::uint8_t> on(mesh.positions.size(), 0, &memory);
+  for (const Edge& edge : cut) on[at(edge.first)] = on[at(edge.second)] = 1;
+  Vector<Wing> wings(&memory);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Index* const v = mesh.triangle(t);
+    for (int k = 0; k < 3; ++k)
+      if (on[at(v[k])]) wings.push_back({v[k], t, k, v[(k + 1) % 3], v[(k + 2) % 3]});
+  }
+  std::stable_sort(wings.begin(), wings.end(), [](const Wing& a, const Wing& b) { return a.vertex < b.vertex; });
+  Vector<Edge> there(&memory);
+  for (const Wing& wing : wings) {
+    for (const Index other : {wing.next, wing.last})
+      there.push_back({std::min(wing.vertex, other), std::max(wing.vertex, other), 0});
+  }
+  std::sort(there.begin(), there.end());
+  for (const Edge& edge : cut) {
+    if (!std::binary_search(there.begin(), there.end(), edge))
+      fail(HF_ERROR_NOT_FOUND, edge.given, "entry %u of cut_edges: no triangle has an edge between vertices %u and %u",
+           edge.given, edges[2 * edge.given], edges[2 * edge.given + 1]);
+  }
+  Vector<Index> given(at(mesh.triangle_count()), Mesh::none, &memory);
+  for (std::size_t g = mesh.triangle_of_given.size(); g-- > 0;)
+    if (mesh.triangle_of_given[g] != Mesh::none) given[at(mesh.triangle_of_given[g])] = static_cast<Index>(g);
+  Vector<Mesh::CutCorner> out(&memory);
+  Index next_copy = static_cast<Index>(mesh.report.vertex_count);
+  for (std::size_t begin = 0, end = 0; begin < wings.size(); begin = end) {
+    while (end < wings.size() && wings[end].vertex == wings[begin].vertex) ++end;
+    Fan(mesh, given, {wings.data() + begin, end - begin}, cut, memory).part(next_copy, out);
+  }
+  if (out.empty())
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX,
+         "the cut parts nothing: inside a surface it takes two edges in a row, on the border one that ends there");
+  return out;
+}
+
+}  // namespace hf_inner
