@@ -164,10 +164,29 @@ struct GraphOptions {
       const Reals& weights) const;
 };
 
-// Lists the changes of Surface::edit: stiffness, links, or both. The stiffness of a vertex is a number by which the
-// weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a
-// row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a
-// shell. A region of small stiffness takes up the bending around it.
+// Lists triangles that go, vertices and triangles that come in, and edges to cut along. Vertices and triangles keep
+// their numbers; new ones follow those there are. New vertices are welded to no other, so two can lie at one place. A
+// vertex without a triangle is isolated from then on, and a new triangle can take it again.
+//
+// A cut gives the vertices along it copies, and the triangles on one side take these. Surface::cuts lists the corners.
+// The end of a cut inside the surface stays one vertex, so a cut takes two edges there. A cut around a part, or from
+// border to border, parts it from the rest: it is a component then.
+struct Patch {
+  // `[removed_triangle_count]` triangles of your mesh
+  std::vector<uint32_t> removed_triangles{};
+  // `[new_vertex_count x 3]` in the unit of your mesh
+  std::vector<double> new_positions{};
+  // `[new_triangle_count x 3]` vertices of your mesh and new ones
+  std::vector<uint32_t> new_triangles{};
+  // `[cut_edge_count x 2]` the two vertices of an edge
+  std::vector<uint32_t> cut_edges{};
+  hf_patch_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
+};
+
+// Lists the changes of Surface::edit: stiffness and links, or a patch. The stiffness of a vertex is a number by which
+// the weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in
+// a row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield,
+// a shell. A region of small stiffness takes up the bending around it.
 struct SurfaceEdit {
   // `[vertex_count]` as given; other vertices keep their stiffness. none: all vertices in order
   std::vector<uint32_t> vertices{};
@@ -178,6 +197,8 @@ struct SurfaceEdit {
   std::vector<hf_link> links{};
   // `[removed_link_count]` links that go out, by their numbers in Surface::links
   std::vector<uint32_t> removed_links{};
+  // none, or triangles that go and come, or a cut; the edit changes nothing else then
+  std::optional<Patch> patch{};
   // none, or an object to poll and cancel through
   const Progress* progress = nullptr;
   hf_surface_edit_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
@@ -1055,10 +1076,10 @@ class Surface {
     return Surface(raw, c.counts({"vertex_count"}));
   }
 
-  // Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface shares
-  // the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do, and a
-  // link costs up to six paths. The library factorises again with the same ordering where that costs less, and for bi-
-  // harmonic fields. A surface that is edited back has the fields of the old one.
+  // Makes a surface with another stiffness, other links or other triangles from a surface, which stays as it is. The
+  // new surface shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as
+  // sites do, and a link costs up to six paths. The library factorises again with the same ordering where that costs
+  // less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
   //
   // Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
   // Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so regions,
@@ -1068,9 +1089,15 @@ class Surface {
   // dropped. The new surface is the one that Surface::relink makes of the same list of links. Surface::components gives
   // the new components. Light pieces and contacts stay as they are.
   //
+  // After a patch the surface is the one that Surface makes of the triangles without the removed ones and with the new
+  // ones, HF_WELD_NONE for the new vertices. Vertices keep their stiffness, new ones have 1. Distances, directions and
+  // quads make a factor of their own when they are first asked for, as on a new surface. Patches over a quarter of the
+  // surface, and with HF_OPERATOR_CLAMPED, make the whole operator and its factor anew. Take links out before, and put
+  // them in again after it.
+  //
   // Solver::move_to and Pose::move_to take sites and handles along. Soft sites keep the unit of their stiffness while
-  // links stay; other links change it as they do for Surface::relink. Surface::save is refused: save the factor of the
-  // surface before its edits. Memory limits hold for both surfaces together.
+  // links and triangles stay; others change it as they do for Surface::relink. Surface::save is refused: save the
+  // factor of the surface before its edits. Memory limits hold for both surfaces together.
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_FOUND, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE,
@@ -1081,6 +1108,21 @@ class Surface {
     hf_surface raw = nullptr;
     check(hf_surface_edit(get(), &desc, &raw));
     return Surface(raw, c.counts({"vertex_count"}));
+  }
+
+  // Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts.
+  std::vector<hf_cut_corner> cuts() const {
+    Call c(counts_);
+    uint32_t count = 0;
+    c.sizes["capacity"] = Call::kFirst;
+    std::vector<hf_cut_corner> cuts;
+    for (bool done = false; !done;) {
+      auto* cuts_at = c.room(cuts, {"capacity"});
+      const hf_result code = hf_surface_get_cuts(get(), c.count("capacity", 0), cuts_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    cuts.resize(c.product({"capacity"}));
+    return cuts;
   }
 
   // Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices.
@@ -3876,6 +3918,19 @@ inline hf_graph_desc GraphOptions::fill([[maybe_unused]] Call& c, [[maybe_unused
   return desc;
 }
 
+inline hf_patch_desc Patch::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
+  auto desc = make<hf_patch_desc>();
+  desc.removed_triangles = c.array(removed_triangles, false, "removed_triangles", {prefix + "removed_triangle_count"});
+  desc.new_positions = c.array(new_positions, false, "new_positions", {prefix + "new_vertex_count", "3"});
+  desc.new_triangles = c.array(new_triangles, false, "new_triangles", {prefix + "new_triangle_count", "3"});
+  desc.cut_edges = c.array(cut_edges, false, "cut_edges", {prefix + "cut_edge_count", "2"});
+  desc.removed_triangle_count = c.count(prefix + "removed_triangle_count", 0);
+  desc.new_vertex_count = c.count(prefix + "new_vertex_count", 0);
+  desc.new_triangle_count = c.count(prefix + "new_triangle_count", 0);
+  desc.cut_edge_count = c.count(prefix + "cut_edge_count", 0);
+  return desc;
+}
+
 inline hf_surface_edit_desc SurfaceEdit::fill([[maybe_unused]] Call& c,
     [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_surface_edit_desc>();
@@ -3884,6 +3939,7 @@ inline hf_surface_edit_desc SurfaceEdit::fill([[maybe_unused]] Call& c,
   desc.links = c.array(links, false, "links", {prefix + "link_count"});
   desc.removed_links = c.array(removed_links, false, "removed_links", {prefix + "removed_link_count"});
   desc.progress = progress ? progress->get() : nullptr;
+  if (patch) desc.patch = c.keep(patch->fill(c, "patch."));
   desc.vertex_count = c.count(prefix + "vertex_count", 0);
   desc.link_count = c.count(prefix + "link_count", 0);
   desc.removed_link_count = c.count(prefix + "removed_link_count", 0);

@@ -369,10 +369,30 @@ HF_API hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* link
 
 /* ---- edits ---- */
 
-/* Lists the changes of hf_surface_edit: stiffness and links, or triangles. The stiffness of a vertex is a number by which the
- * weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a
- * row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a
- * shell. A region of small stiffness takes up the bending around it. */
+/* Lists triangles that go, vertices and triangles that come in, and edges to cut along. Vertices and triangles keep
+ * their numbers; new ones follow those there are. New vertices are welded to no other, so two can lie at one place. A
+ * vertex without a triangle is isolated from then on, and a new triangle can take it again.
+ *
+ * A cut gives the vertices along it copies, and the triangles on one side take these. hf_surface_get_cuts lists the
+ * corners. The end of a cut inside the surface stays one vertex, so a cut takes two edges there. A cut around a part,
+ * or from border to border, parts it from the rest: it is a component then. */
+typedef struct hf_patch_desc {
+  uint32_t struct_size;
+  uint32_t removed_triangle_count;   /* entries of removed_triangles */
+  uint32_t new_vertex_count;         /* entries of new_positions */
+  uint32_t new_triangle_count;       /* entries of new_triangles */
+  uint32_t cut_edge_count;           /* entries of cut_edges; then the other counts are 0 */
+  uint32_t reserved;                 /* 0 */
+  const uint32_t* removed_triangles; /* [removed_triangle_count] triangles of your mesh */
+  const double* new_positions;       /* [new_vertex_count][3] in the unit of your mesh */
+  const uint32_t* new_triangles;     /* [new_triangle_count][3] vertices of your mesh and new ones */
+  const uint32_t* cut_edges;         /* [cut_edge_count][2] the two vertices of an edge */
+} hf_patch_desc;
+
+/* Lists the changes of hf_surface_edit: stiffness and links, or a patch. The stiffness of a vertex is a number by which
+ * the weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in
+ * a row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield,
+ * a shell. A region of small stiffness takes up the bending around it. */
 typedef struct hf_surface_edit_desc {
   uint32_t struct_size;
   uint32_t vertex_count; /* entries of vertices and stiffness */
@@ -384,22 +404,14 @@ typedef struct hf_surface_edit_desc {
   uint32_t removed_link_count;   /* entries of removed_links */
   const hf_link* links;          /* [link_count] links that come in, after those that stay */
   const uint32_t* removed_links; /* [removed_link_count] links that go out, by their numbers in hf_surface_get_links */
-  uint32_t removed_triangle_count;   /* entries of removed_triangles */
-  uint32_t new_vertex_count;         /* entries of new_positions */
-  uint32_t new_triangle_count;       /* entries of new_triangles */
-  uint32_t cut_edge_count;           /* entries of cut_edges */
-  const uint32_t* removed_triangles; /* [removed_triangle_count] triangles of your mesh that go */
-  const double* new_positions;       /* [new_vertex_count][3] vertices that come in, numbered after those there are */
-  const uint32_t* new_triangles;     /* [new_triangle_count][3] triangles that come in, numbered after those there are;
-                                        corners are vertices of your mesh and new ones */
-  const uint32_t* cut_edges;         /* [cut_edge_count][2] edges of triangles, two vertices each, to cut along */
-  hf_progress progress;              /* NULL, or an object to poll and cancel through */
+  const hf_patch_desc* patch;    /* NULL, or triangles that go and come, or a cut; the edit changes nothing else then */
+  hf_progress progress;          /* NULL, or an object to poll and cancel through */
 } hf_surface_edit_desc;
 
-/* Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface shares
- * the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do, and a link
- * costs up to six paths. The library factorises again with the same ordering where that costs less, and for bi-harmonic
- * fields. A surface that is edited back has the fields of the old one.
+/* Makes a surface with another stiffness, other links or other triangles from a surface, which stays as it is. The new
+ * surface shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites
+ * do, and a link costs up to six paths. The library factorises again with the same ordering where that costs less, and
+ * for bi-harmonic fields. A surface that is edited back has the fields of the old one.
  *
  * Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
  * Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so regions,
@@ -409,17 +421,41 @@ typedef struct hf_surface_edit_desc {
  * dropped. The new surface is the one that hf_surface_relink makes of the same list of links. hf_surface_get_components
  * gives the new components. Light pieces and contacts stay as they are.
  *
+ * After a patch the surface is the one that hf_surface_create makes of the triangles without the removed ones and with
+ * the new ones, HF_WELD_NONE for the new vertices. Vertices keep their stiffness, new ones have 1. Distances,
+ * directions and quads make a factor of their own when they are first asked for, as on a new surface. Patches over a
+ * quarter of the surface, and with HF_OPERATOR_CLAMPED, make the whole operator and its factor anew. Take links out
+ * before, and put them in again after it.
+ *
  * hf_solver_move_to and hf_pose_move_to take sites and handles along. Soft sites keep the unit of their stiffness while
- * links stay; other links change it as they do for hf_surface_relink. hf_surface_save is refused: save the factor of
- * the surface before its edits. Memory limits hold for both surfaces together. out_surface: as in hf_surface_create.
- * Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a stiffness out of range, or a link as
- * hf_surface_create refuses it) and HF_ERROR_CONFLICT (a vertex, or a welded copy, listed twice with different numbers;
- * a removed link listed twice), index = position in the list; HF_ERROR_NOT_FOUND (a removed link that is not there,
- * index = position in removed_links); HF_ERROR_EMPTY (nothing to edit), HF_ERROR_INVALID_ARGUMENT (vertices is NULL and
- * the surface has another vertex count), HF_ERROR_UNSUPPORTED (links of a graph), HF_ERROR_NOT_POSITIVE_DEFINITE
- * (negative weights, or weights that span too many digits; index = vertex), HF_ERROR_CANCELLED. Thread safety: reads
- * `surface`. Since 0.1. */
+ * links and triangles stay; others change it as they do for hf_surface_relink. hf_surface_save is refused: save the
+ * factor of the surface before its edits. Memory limits hold for both surfaces together. out_surface: as in
+ * hf_surface_create. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a stiffness out of
+ * range, a link as hf_surface_create refuses it, equal corners or ends) and HF_ERROR_CONFLICT (a vertex, or a welded
+ * copy, listed twice with different numbers; a removed link or triangle listed twice; a new triangle on another one),
+ * index = position in the list; HF_ERROR_NOT_FOUND (a removed link or triangle that is not there, an edge of no
+ * triangle, index = position in the list); HF_ERROR_EMPTY (nothing to edit, a cut that parts nothing, no triangle
+ * left), HF_ERROR_INVALID_ARGUMENT (vertices is NULL and the surface has another vertex count; a patch together with
+ * other changes), HF_ERROR_UNSUPPORTED (links or a patch of a graph; a patch of a surface with links, of polygons, or
+ * where triangles lie on each other), HF_ERROR_TOO_LARGE (vertex_limit or triangle_limit),
+ * HF_ERROR_NOT_POSITIVE_DEFINITE (negative weights, or weights that span too many digits; index = vertex),
+ * HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_edit(hf_surface surface, const hf_surface_edit_desc* desc, hf_surface* out_surface);
+
+/* A corner of a triangle that a cut gave another vertex. Write it into your index array, and give the new vertex what
+ * the copied one has: indices[3 * triangle + corner] = vertex. */
+typedef struct hf_cut_corner {
+  uint32_t triangle; /* of your mesh */
+  uint32_t corner;   /* 0, 1 or 2 */
+  uint32_t vertex;   /* new since the surface was made */
+  uint32_t copied;   /* the vertex that it copies, the first of welded copies */
+} hf_cut_corner;
+
+/* Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts. out_cuts:
+ * NULL, or hf_cut_corner[capacity]. out_count: NULL, or receives their number. Thread safety: reads `surface`. Since
+ * 0.1. */
+HF_API hf_result hf_surface_get_cuts(hf_surface surface, uint32_t capacity, hf_cut_corner* out_cuts,
+                                     uint32_t* out_count);
 
 /* Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices. out_stiffness: NULL, or
  * double[capacity]. out_count: NULL, or receives vertex_count. Thread safety: reads `surface`. Since 0.1. */

@@ -28,10 +28,27 @@ hf_result hf_surface_edit(hf_surface surface, const hf_surface_edit_desc* given,
     const auto object = get<SurfaceObject>(surface, "surface");
     const hf_surface_edit_desc desc = read_struct(given, "desc");
     const std::shared_ptr<const Surface> before(object, &object->surface);
-    SurfaceEdit edit = read_surface_edit(desc, *before, object->info);
+    hf_patch_desc patch{};
+    if (desc.patch) patch = read_struct(desc.patch, "patch");
+    SurfaceEdit edit = read_surface_edit(desc, desc.patch ? &patch : nullptr, *before, object->info);
     return with_progress(desc.progress, [&] {
       return make_owner_in<SurfaceObject>(object->memory, before, std::move(edit), object->info);
     });
+  });
+}
+
+hf_result hf_surface_get_cuts(hf_surface surface, uint32_t capacity, hf_cut_corner* out_cuts, uint32_t* out_count) {
+  return guarded("hf_surface_get_cuts", [&] {
+    const auto object = get<SurfaceObject>(surface, "surface");
+    require_either(out_cuts, out_count, "out_cuts and out_count");
+    const auto& cuts = object->surface.geometry().unlinked().mesh.cuts;
+    write_count(out_count, cuts.size());
+    check_capacity(out_cuts, capacity, cuts.size(), "capacity");
+    for (std::size_t i = 0; out_cuts && i < cuts.size(); ++i) {
+      const Mesh::CutCorner& cut = cuts[i];
+      out_cuts[i] = {static_cast<uint32_t>(cut.triangle), static_cast<uint32_t>(cut.corner),
+                     static_cast<uint32_t>(cut.vertex), static_cast<uint32_t>(cut.copied)};
+    }
   });
 }
 

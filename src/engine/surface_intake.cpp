@@ -201,17 +201,16 @@ std::shared_ptr<const Geometry> read_link_edit(const hf_surface_edit_desc& desc,
 }
 
 // Reads the triangles that go and come. Vertices keep their stiffness; new ones have 1.
-SurfaceEdit read_patch(const hf_surface_edit_desc& desc, const Surface& before, const hf_surface_info& info) {
-  if (desc.stiffness || desc.vertices || desc.vertex_count > 0 || desc.link_count > 0 || desc.removed_link_count > 0)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "one edit cuts or exchanges triangles, or changes stiffness and links; make two edits");
+SurfaceEdit read_patch(const hf_patch_desc& desc, const Surface& before, const hf_surface_info& info) {
+  require_zero(desc.reserved);
   const bool exchanges = desc.removed_triangle_count > 0 || desc.new_vertex_count > 0 || desc.new_triangle_count > 0;
   if (desc.cut_edge_count > 0 && exchanges)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "one edit cuts, or exchanges triangles; make two edits");
-  if (desc.cut_edge_count > 0) require(desc.cut_edges, "cut_edges");
-  if (desc.removed_triangle_count > 0) require(desc.removed_triangles, "removed_triangles");
-  if (desc.new_vertex_count > 0) require(desc.new_positions, "new_positions");
-  if (desc.new_triangle_count > 0) require(desc.new_triangles, "new_triangles");
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "one patch cuts, or exchanges triangles; make two edits");
+  if (desc.cut_edge_count == 0 && !exchanges) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the patch is empty");
+  if (desc.cut_edge_count > 0) require(desc.cut_edges, "patch->cut_edges");
+  if (desc.removed_triangle_count > 0) require(desc.removed_triangles, "patch->removed_triangles");
+  if (desc.new_vertex_count > 0) require(desc.new_positions, "patch->new_positions");
+  if (desc.new_triangle_count > 0) require(desc.new_triangles, "patch->new_triangles");
   const Geometry& old = before.geometry();
   check_sum(old.mesh.report.vertex_count, desc.new_vertex_count, info.vertex_limit, "vertices", "vertex_limit");
   if (info.triangle_limit != 0)
@@ -250,10 +249,14 @@ SurfaceEdit read_patch(const hf_surface_edit_desc& desc, const Surface& before, 
 
 }  // namespace
 
-SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const Surface& before, const hf_surface_info& info) {
-  if (desc.removed_triangle_count > 0 || desc.new_vertex_count > 0 || desc.new_triangle_count > 0 ||
-      desc.cut_edge_count > 0)
-    return read_patch(desc, before, info);
+SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const hf_patch_desc* patch, const Surface& before,
+                              const hf_surface_info& info) {
+  if (patch) {
+    if (desc.stiffness || desc.vertices || desc.vertex_count > 0 || desc.link_count > 0 || desc.removed_link_count > 0)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+           "one edit takes a patch, or changes stiffness and links; make two edits");
+    return read_patch(*patch, before, info);
+  }
   SurfaceEdit edit;
   const bool links = desc.link_count > 0 || desc.removed_link_count > 0;
   if (desc.stiffness || desc.vertices || desc.vertex_count > 0 || !links)

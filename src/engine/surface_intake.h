@@ -31,7 +31,9 @@ CoreOptions options_like(const Surface& other);
 // HF_ERROR_INVALID_ARGUMENT (another ordering, damaged bytes), HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER.
 void read_saved_factor(const hf_factor_desc& saved, std::int32_t ordering, CoreOptions& options);
 
-// Reads what a surface has after an edit. info: its limits. Throws as hf_surface_edit documents.
-SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const Surface& before, const hf_surface_info& info);
+// Reads what a surface has after an edit. patch: of the desc, or null. info: the limits of the surface. Throws as
+// hf_surface_edit documents.
+SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const hf_patch_desc* patch, const Surface& before,
+                              const hf_surface_info& info);
 
 }  // namespace hf_inner

@@ -72,8 +72,8 @@ class Fan {
       if (groups.find(group) != group || fans.find(group) == group) continue;
       for (std::size_t w = g; w < wings_.size(); ++w) {
         if (groups.find(static_cast<Index>(w)) != group) continue;
-        out.push_back({given_[at(wings_[w].triangle)], wings_[w].corner, next_copy,
-                       mesh_.given_of_inner[at(wings_[w].vertex)]});
+        out.push_back(
+            {given_[at(wings_[w].triangle)], wings_[w].corner, next_copy, mesh_.given_of_inner[at(wings_[w].vertex)]});
       }
       ++next_copy;
     }

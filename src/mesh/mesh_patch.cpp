@@ -67,8 +67,9 @@ class MeshPatcher {
   void touch(Index t, std::uint32_t i, const char* list) {
     const Index* const v = before_.triangle(t);
     if (std::binary_search(doubled_.begin(), doubled_.end(), Corners(v)))
-      fail(HF_ERROR_UNSUPPORTED, i, "entry %u of %s: triangle %u lies on another one; leave one of them out of the mesh",
-           i, list, before_.given_of_triangle(t));
+      fail(HF_ERROR_UNSUPPORTED, i,
+           "entry %u of %s: triangle %u lies on another one; leave one of them out of the mesh", i, list,
+           before_.given_of_triangle(t));
     for (int k = 0; k < 3; ++k) touched_[at(v[k])] = 1;
   }
 
@@ -92,7 +93,8 @@ class MeshPatcher {
   // Turns the corners of new triangles into inner vertices before, or -2 - p with p the place in given_.
   void read_added() {
     const std::uint32_t old = before_.report.vertex_count;
-    const std::size_t count = old + patch_.positions.size() + patch_.cuts.size(), triangles = patch_.triangles.size() / 3;
+    const std::size_t count = old + patch_.positions.size() + patch_.cuts.size(),
+                      triangles = patch_.triangles.size() / 3;
     if (count > most_elements || before_.report.triangle_count + triangles > most_elements)
       fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%zu vertices and %zu triangles; at most %u are supported", count,
            before_.report.triangle_count + triangles, most_elements);
@@ -147,7 +149,8 @@ class MeshPatcher {
       const Index t = before_.triangle_of_given[at(cut.triangle)];
       const auto there = std::lower_bound(cut_.begin(), cut_.end(), t);
       cut_corners_[3 * static_cast<std::size_t>(there - cut_.begin()) + at(cut.corner)] =
-          first_copy - static_cast<Index>(std::lower_bound(copies_.begin(), copies_.end(), cut.vertex) - copies_.begin());
+          first_copy -
+          static_cast<Index>(std::lower_bound(copies_.begin(), copies_.end(), cut.vertex) - copies_.begin());
     }
   }
 

@@ -342,6 +342,7 @@ static void bad_links_are_refused_by_index_and_change_nothing(void** state) {
   ROW("links of a graph", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_surface_edit(graph, &bad, &out));
   hf_surface_destroy(graph);
   hf_surface_destroy(held);
+  finish_rows("links in edits");
   scene_destroy(&scene);
 }
 

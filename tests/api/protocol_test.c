@@ -8,6 +8,7 @@ static Scene scene;
 static hf_quads quads;
 static hf_flow flow;
 static double height[TUBE_VERTICES];
+static hf_surface parted;        /* the octahedra, one cut open */
 static hf_surface linked;        /* two octahedra side by side */
 static hf_region curved;         /* enclosed by a curve round the tube */
 static hf_direction round_field; /* on a closed surface, where the field has singularities */
@@ -33,6 +34,12 @@ static hf_array heights(void) { return HF_ARRAY(height, TUBE_VERTICES); }
 static hf_result get_stiffness(Call* c) {
   uint32_t count = 0;
   const hf_result r = hf_surface_get_stiffness(scene.sheet, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result get_cuts(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_surface_get_cuts(parted, (uint32_t)c->capacity[0], c->array[0], &count);
   c->count[0] = count;
   return r;
 }
@@ -343,6 +350,7 @@ static const struct {
 } functions[] = {
     {"hf_surface_get_components", get_components, {{0, 4, 0}}, 0},
     {"hf_surface_get_stiffness", get_stiffness, {{0, 8, 0}}, 0},
+    {"hf_surface_get_cuts", get_cuts, {{0, sizeof(hf_cut_corner), 0}}, 0},
     {"hf_surface_get_links", get_links, {{0, sizeof(hf_link), 0}}, 0},
     {"hf_surface_get_pieces", get_pieces, {{0, 4, 0}, {0, 4, 0}}, 0},
     {"hf_surface_measure_gaps", measure_gaps, {{0, 8, 0}}, 0},
@@ -406,6 +414,17 @@ static void linked_create(void) {
   desc.triangles = HF_ARRAY(faces, 16);
   desc.links = &links;
   assert_ok(hf_surface_create(&desc, &linked));
+  desc.links = NULL;
+  hf_surface plain = NULL;
+  assert_ok(hf_surface_create(&desc, &plain));
+  const uint32_t edges[4] = {faces[0], faces[1], faces[1], faces[2]};
+  hf_patch_desc patch = HF_INIT(hf_patch_desc);
+  patch.cut_edge_count = 2;
+  patch.cut_edges = edges;
+  hf_surface_edit_desc edit = HF_INIT(hf_surface_edit_desc);
+  edit.patch = &patch;
+  assert_ok(hf_surface_edit(plain, &edit, &parted));
+  hf_surface_destroy(plain);
 }
 
 static void round_field_create(void) {
@@ -561,6 +580,7 @@ static void every_function_with_a_capacity_keeps_the_protocol(void** state) {
   hf_skeleton_destroy(skeleton);
   hf_region_destroy(curved);
   hf_surface_destroy(linked);
+  hf_surface_destroy(parted);
   scene_destroy(&scene);
 }
 

@@ -647,6 +647,38 @@ namespace Hf
         }
     }
 
+    /// <summary>A corner of a triangle that a cut gave another vertex. Write it into your index array, and give the new
+    /// vertex what the copied one has: indices[3 * triangle + corner] = vertex.</summary>
+    public sealed unsafe partial class CutCorner
+    {
+        /// <summary>of your mesh</summary>
+        public uint Triangle;
+        /// <summary>0, 1 or 2</summary>
+        public uint Corner;
+        /// <summary>new since the surface was made</summary>
+        public uint Vertex;
+        /// <summary>the vertex that it copies, the first of welded copies</summary>
+        public uint Copied;
+
+        internal CutCorner(hf_cut_corner* raw)
+        {
+            Triangle = raw->triangle;
+            Corner = raw->corner;
+            Vertex = raw->vertex;
+            Copied = raw->copied;
+        }
+
+        public CutCorner() { }
+
+        internal void Write(Call c, hf_cut_corner* raw)
+        {
+            raw->triangle = Triangle;
+            raw->corner = Corner;
+            raw->vertex = Vertex;
+            raw->copied = Copied;
+        }
+    }
+
     /// <summary>Surface.Statistics writes sizes and times of a surface here. Times are in milliseconds. Bytes are doubles
     /// (exact to 2^53).</summary>
     public sealed unsafe partial class SurfaceStatistics
@@ -2076,6 +2108,46 @@ namespace Hf
         }
     }
 
+    /// <summary>Lists triangles that go, vertices and triangles that come in, and edges to cut along. Vertices and triangles
+    /// keep their numbers; new ones follow those there are. New vertices are welded to no other, so two can lie at
+    /// one place. A vertex without a triangle is isolated from then on, and a new triangle can take it again.
+    ///
+    /// A cut gives the vertices along it copies, and the triangles on one side take these. Surface.Cuts lists the
+    /// corners. The end of a cut inside the surface stays one vertex, so a cut takes two edges there. A cut around
+    /// a part, or from border to border, parts it from the rest: it is a component then.</summary>
+    public sealed unsafe class PatchDesc
+    {
+        /// <summary>[removedTriangleCount] triangles of your mesh</summary>
+        public uint[] RemovedTriangles;
+        /// <summary>[newVertexCount x 3] in the unit of your mesh</summary>
+        public double[] NewPositions;
+        /// <summary>[newTriangleCount x 3] vertices of your mesh and new ones</summary>
+        public uint[] NewTriangles;
+        /// <summary>[cutEdgeCount x 2] the two vertices of an edge</summary>
+        public uint[] CutEdges;
+
+        public static implicit operator PatchDesc(uint[] removedTriangles)
+        {
+            return removedTriangles == null ? null : new PatchDesc { RemovedTriangles = removedTriangles };
+        }
+
+        internal IntPtr Fill(Call c, string prefix)
+        {
+            var desc = (hf_patch_desc*)c.New(sizeof(hf_patch_desc));
+            desc->struct_size = (uint)sizeof(hf_patch_desc);
+            desc->removed_triangles = (IntPtr)c.Array(RemovedTriangles, "removedTriangles",
+                prefix + "removed_triangle_count");
+            desc->new_positions = (IntPtr)c.Array(NewPositions, "newPositions", prefix + "new_vertex_count", "3");
+            desc->new_triangles = (IntPtr)c.Array(NewTriangles, "newTriangles", prefix + "new_triangle_count", "3");
+            desc->cut_edges = (IntPtr)c.Array(CutEdges, "cutEdges", prefix + "cut_edge_count", "2");
+            desc->removed_triangle_count = (uint)c.Count(prefix + "removed_triangle_count", 0);
+            desc->new_vertex_count = (uint)c.Count(prefix + "new_vertex_count", 0);
+            desc->new_triangle_count = (uint)c.Count(prefix + "new_triangle_count", 0);
+            desc->cut_edge_count = (uint)c.Count(prefix + "cut_edge_count", 0);
+            return (IntPtr)desc;
+        }
+    }
+
     /// <summary>Places and values of sites. Set one of vertices, places and points. The finer the mesh, the less influence a
     /// point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius
     /// below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For
@@ -2606,11 +2678,11 @@ namespace Hf
             }
         }
 
-        /// <summary>Makes a surface with another stiffness or other links from a surface, which stays as it is. The new
-        /// surface shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its
-        /// rim, as sites do, and a link costs up to six paths. The library factorises again with the same ordering
-        /// where that costs less, and for bi-harmonic fields. A surface that is edited back has the fields of the
-        /// old one.
+        /// <summary>Makes a surface with another stiffness, other links or other triangles from a surface, which stays as it
+        /// is. The new surface shares the factor: an edit of up to a few thousand vertices costs the elimination
+        /// paths of its rim, as sites do, and a link costs up to six paths. The library factorises again with the
+        /// same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has the
+        /// fields of the old one.
         ///
         /// Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100
         /// or more. Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not
@@ -2620,22 +2692,29 @@ namespace Hf
         /// up and dropped. The new surface is the one that Surface.Relink makes of the same list of links.
         /// Surface.Components gives the new components. Light pieces and contacts stay as they are.
         ///
+        /// After a patch the surface is the one that Surface makes of the triangles without the removed ones and
+        /// with the new ones, Weld.None for the new vertices. Vertices keep their stiffness, new ones have 1.
+        /// Distances, directions and quads make a factor of their own when they are first asked for, as on a new
+        /// surface. Patches over a quarter of the surface, and with Operator.Clamped, make the whole operator and
+        /// its factor anew. Take links out before, and put them in again after it.
+        ///
         /// Solver.MoveTo and Pose.MoveTo take sites and handles along. Soft sites keep the unit of their stiffness
-        /// while links stay; other links change it as they do for Surface.Relink. Surface.Save is refused: save the
-        /// factor of the surface before its edits. Memory limits hold for both surfaces together.
+        /// while links and triangles stay; others change it as they do for Surface.Relink. Surface.Save is refused:
+        /// save the factor of the surface before its edits. Memory limits hold for both surfaces together.
         ///
         /// vertices: [vertexCount] as given; other vertices keep their stiffness. null: all vertices in order
         /// stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. null: no
         ///     stiffness changes, and vertex_count is 0
         /// links: [linkCount] links that come in, after those that stay
         /// removedLinks: [removedLinkCount] links that go out, by their numbers in Surface.Links
+        /// patch: triangles that go and come, or a cut; the edit changes nothing else then
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT,
         /// HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
         public Surface Edit(uint[] vertices = null, double[] stiffness = null, Link[] links = null,
-                uint[] removedLinks = null, Progress progress = null)
+                uint[] removedLinks = null, PatchDesc patch = null, Progress progress = null)
         {
             using (var c = new Call(this))
             {
@@ -2648,6 +2727,7 @@ namespace Hf
                 desc->links = (IntPtr)linksRows;
                 desc->removed_links = (IntPtr)c.Array(removedLinks, "removedLinks", "list_removed_link_count");
                 desc->progress = c.Handle(progress);
+                if (patch != null) desc->patch = patch.Fill(c, "patch.");
                 desc->vertex_count = (uint)c.Count("list_vertex_count", 0);
                 desc->link_count = (uint)c.Count("list_link_count", 0);
                 desc->removed_link_count = (uint)c.Count("list_removed_link_count", 0);
@@ -2656,6 +2736,28 @@ namespace Hf
                 var made = new Surface();
                 made.Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
                 return made;
+            }
+        }
+
+        /// <summary>Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts.</summary>
+        public CutCorner[] Cuts()
+        {
+            using (var c = new Call(this))
+            {
+                uint count = 0;
+                void* cutsPlace = null;
+                c.Room("capacity", "hf_surface_get_cuts.capacity");
+                int result;
+                do
+                {
+                        cutsPlace = c.Rows(sizeof(hf_cut_corner), "capacity");
+                        result = Functions.hf_surface_get_cuts(RawHandle, (uint)c.Size("capacity"), cutsPlace, &count);
+                }
+                while (c.Again("hf_surface_get_cuts", result, ("capacity", count)));
+                var cuts = new CutCorner[c.Product("capacity")];
+                for (int i = 0; i < cuts.Length; ++i)
+                    cuts[i] = new CutCorner((hf_cut_corner*)cutsPlace + i);
+                return cuts;
             }
         }
 

@@ -402,6 +402,21 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_patch_desc
+    {
+        public uint struct_size;
+        public uint removed_triangle_count;
+        public uint new_vertex_count;
+        public uint new_triangle_count;
+        public uint cut_edge_count;
+        public uint reserved;
+        public IntPtr removed_triangles;
+        public IntPtr new_positions;
+        public IntPtr new_triangles;
+        public IntPtr cut_edges;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_surface_edit_desc
     {
         public uint struct_size;
@@ -412,7 +427,17 @@ namespace Hf.Native
         public uint removed_link_count;
         public IntPtr links;
         public IntPtr removed_links;
+        public IntPtr patch;
         public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_cut_corner
+    {
+        public uint triangle;
+        public uint corner;
+        public uint vertex;
+        public uint copied;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1448,6 +1473,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_measure_gaps(IntPtr surface, void* positions, uint capacity, void* out_gaps, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_relink(IntPtr surface, void* links, IntPtr progress, void* out_surface);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_edit(IntPtr surface, void* desc, void* out_surface);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_cuts(IntPtr surface, uint capacity, void* out_cuts, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_stiffness(IntPtr surface, uint capacity, void* out_stiffness, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_statistics(IntPtr surface, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_save(IntPtr surface, int field_kind, IntPtr progress, UIntPtr capacity, void* out_bytes, void* out_size);

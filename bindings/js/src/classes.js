@@ -82,8 +82,25 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     return desc;
   };
 
+  const patchDesc = (c, prefix, options) => {
+    const { removedTriangles = null, newPositions = null, newTriangles = null, cutEdges = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_patch_desc', {});
+    desc.set('removed_triangles', c.array('removedTriangles', removedTriangles, 'u4',
+            [prefix + 'removed_triangle_count']));
+    desc.set('new_positions', c.array('newPositions', newPositions, 'f8', [prefix + 'new_vertex_count', 3]));
+    desc.set('new_triangles', c.array('newTriangles', newTriangles, 'u4', [prefix + 'new_triangle_count', 3]));
+    desc.set('cut_edges', c.array('cutEdges', cutEdges, 'u4', [prefix + 'cut_edge_count', 2]));
+    desc.set('removed_triangle_count', (c.n[prefix + 'removed_triangle_count'] ??= 0));
+    desc.set('new_vertex_count', (c.n[prefix + 'new_vertex_count'] ??= 0));
+    desc.set('new_triangle_count', (c.n[prefix + 'new_triangle_count'] ??= 0));
+    desc.set('cut_edge_count', (c.n[prefix + 'cut_edge_count'] ??= 0));
+    return desc;
+  };
+
   const surfaceEditDesc = (c, prefix, options) => {
-    const { vertices = null, stiffness = null, links = null, removedLinks = null, progress = null, ...more } = options;
+    const { vertices = null, stiffness = null, links = null, removedLinks = null, patch = null, progress = null,
+            ...more } = options;
     none(more);
     const desc = c.struct('hf_surface_edit_desc', {});
     desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'vertex_count']));
@@ -91,6 +108,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     desc.set('links', c.rows('links', links, [prefix + 'link_count'], (row) => c.struct('hf_link', row)));
     desc.set('removed_links', c.array('removedLinks', removedLinks, 'u4', [prefix + 'removed_link_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    desc.set('patch', c.inner(patch, 'removedTriangles', patchDesc, 'patch.'));
     desc.set('vertex_count', (c.n[prefix + 'vertex_count'] ??= 0));
     desc.set('link_count', (c.n[prefix + 'link_count'] ??= 0));
     desc.set('removed_link_count', (c.n[prefix + 'removed_link_count'] ??= 0));
@@ -591,6 +609,15 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       Object.assign(c.n, this._n);
       made._own('hf_surface_edit', c, this._handle, desc);
       return made;
+    }
+
+    cuts() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_surface_get_cuts', (room, made) => call('hf_surface_get_cuts', this._handle,
+              room.capacity, written(made.cuts), written(count)), () => ({ capacity: count[0] }), { capacity: null },
+              { cuts: ['hf_cut_corner', ['capacity']] });
+      return found.cuts;
     }
 
     stiffness() {

@@ -186,6 +186,21 @@ export interface GapsInfo {
 }
 
 /**
+ * A corner of a triangle that a cut gave another vertex. Write it into your index array, and give the new vertex
+ * what the copied one has: indices[3 * triangle + corner] = vertex.
+ */
+export interface CutCorner {
+  /** of your mesh */
+  triangle: number;
+  /** 0, 1 or 2 */
+  corner: number;
+  /** new since the surface was made */
+  vertex: number;
+  /** the vertex that it copies, the first of welded copies */
+  copied: number;
+}
+
+/**
  * Surface.statistics writes sizes and times of a surface here. Times are in milliseconds. Bytes are doubles (exact
  * to 2^53).
  */
@@ -1151,6 +1166,26 @@ export interface LinksDescGiven {
 }
 
 /**
+ * Lists triangles that go, vertices and triangles that come in, and edges to cut along. Vertices and triangles
+ * keep their numbers; new ones follow those there are. New vertices are welded to no other, so two can lie at one
+ * place. A vertex without a triangle is isolated from then on, and a new triangle can take it again.
+ *
+ * A cut gives the vertices along it copies, and the triangles on one side take these. Surface.cuts lists the
+ * corners. The end of a cut inside the surface stays one vertex, so a cut takes two edges there. A cut around a
+ * part, or from border to border, parts it from the rest: it is a component then.
+ */
+export interface PatchDescGiven {
+  /** [removedTriangleCount] triangles of your mesh */
+  removedTriangles?: Rows | null;
+  /** [newVertexCount x 3] in the unit of your mesh */
+  newPositions?: Rows | null;
+  /** [newTriangleCount x 3] vertices of your mesh and new ones */
+  newTriangles?: Rows | null;
+  /** [cutEdgeCount x 2] the two vertices of an edge */
+  cutEdges?: Rows | null;
+}
+
+/**
  * Places and values of sites. Set one of vertices, places and points. The finer the mesh, the less influence a
  * point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below
  * the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields
@@ -1307,10 +1342,10 @@ export interface Surface extends Handle {
    */
   relink(options?: { joints?: Rows | null; weights?: Rows | null; jointParents?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
   /**
-   * Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface
-   * shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites
-   * do, and a link costs up to six paths. The library factorises again with the same ordering where that costs
-   * less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
+   * Makes a surface with another stiffness, other links or other triangles from a surface, which stays as it is.
+   * The new surface shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its
+   * rim, as sites do, and a link costs up to six paths. The library factorises again with the same ordering where
+   * that costs less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
    *
    * Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or
    * more. Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so
@@ -1320,22 +1355,31 @@ export interface Surface extends Handle {
    * and dropped. The new surface is the one that Surface.relink makes of the same list of links.
    * Surface.components gives the new components. Light pieces and contacts stay as they are.
    *
+   * After a patch the surface is the one that Surface makes of the triangles without the removed ones and with the
+   * new ones, HF_WELD_NONE for the new vertices. Vertices keep their stiffness, new ones have 1. Distances,
+   * directions and quads make a factor of their own when they are first asked for, as on a new surface. Patches
+   * over a quarter of the surface, and with HF_OPERATOR_CLAMPED, make the whole operator and its factor anew. Take
+   * links out before, and put them in again after it.
+   *
    * Solver.moveTo and Pose.moveTo take sites and handles along. Soft sites keep the unit of their stiffness while
-   * links stay; other links change it as they do for Surface.relink. Surface.save is refused: save the factor of
-   * the surface before its edits. Memory limits hold for both surfaces together.
+   * links and triangles stay; others change it as they do for Surface.relink. Surface.save is refused: save the
+   * factor of the surface before its edits. Memory limits hold for both surfaces together.
    *
    * vertices: [vertexCount] as given; other vertices keep their stiffness. null: all vertices in order
    * stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. null: no stiffness
    *     changes, and vertex_count is 0
    * links: [linkCount] links that come in, after those that stay
    * removedLinks: [removedLinkCount] links that go out, by their numbers in Surface.links
+   * patch: triangles that go and come, or a cut; the edit changes nothing else then
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
    * HF_ERROR_NOT_FOUND, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE,
    * HF_ERROR_UNSUPPORTED.
    */
-  edit(options?: { vertices?: Rows | null; stiffness?: Rows | null; links?: Rows | null; removedLinks?: Rows | null; progress?: Progress | null }): Surface;
+  edit(options?: { vertices?: Rows | null; stiffness?: Rows | null; links?: Rows | null; removedLinks?: Rows | null; patch?: PatchDescGiven | Rows | null; progress?: Progress | null }): Surface;
+  /** Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts. */
+  cuts(): CutCorner[];
   /** Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices. */
   stiffness(): Float64Array;
   /** Writes the statistics of a surface and of the factor it was made with. */

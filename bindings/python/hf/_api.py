@@ -32,6 +32,7 @@ SurfaceReport = _raw.hf_surface_report
 MeshStatistics = _raw.hf_mesh_statistics
 LinksInfo = _raw.hf_links_info
 GapsInfo = _raw.hf_gaps_info
+CutCorner = _raw.hf_cut_corner
 SurfaceStatistics = _raw.hf_surface_statistics
 Place = _raw.hf_place
 Hit = _raw.hf_hit
@@ -741,15 +742,31 @@ def _graph_desc(c: Call, prefix: str = '', *, edges: Optional[ArrayLike] = None,
     return desc
 
 
+def _patch_desc(c: Call, prefix: str = '', *, removed_triangles: Optional[ArrayLike] = None,
+        new_positions: Optional[ArrayLike] = None, new_triangles: Optional[ArrayLike] = None,
+        cut_edges: Optional[ArrayLike] = None) -> Any:
+    desc = c.struct(_raw.hf_patch_desc, {})
+    desc.removed_triangles = c.array('removed_triangles', removed_triangles, 'u4', (prefix + 'removed_triangle_count',))
+    desc.new_positions = c.array('new_positions', new_positions, 'f8', (prefix + 'new_vertex_count', 3))
+    desc.new_triangles = c.array('new_triangles', new_triangles, 'u4', (prefix + 'new_triangle_count', 3))
+    desc.cut_edges = c.array('cut_edges', cut_edges, 'u4', (prefix + 'cut_edge_count', 2))
+    desc.removed_triangle_count = c.n.setdefault(prefix + 'removed_triangle_count', 0)
+    desc.new_vertex_count = c.n.setdefault(prefix + 'new_vertex_count', 0)
+    desc.new_triangle_count = c.n.setdefault(prefix + 'new_triangle_count', 0)
+    desc.cut_edge_count = c.n.setdefault(prefix + 'cut_edge_count', 0)
+    return desc
+
+
 def _surface_edit_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
         stiffness: Optional[ArrayLike] = None, links: Optional[ArrayLike] = None,
-        removed_links: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
+        removed_links: Optional[ArrayLike] = None, patch: Any = None, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_surface_edit_desc, {})
     desc.vertices = c.array('vertices', vertices, 'u4', (prefix + 'vertex_count',))
     desc.stiffness = c.array('stiffness', stiffness, 'f8', (prefix + 'vertex_count',))
     desc.links = c.written('links', links, _raw.hf_link, (prefix + 'link_count',))
     desc.removed_links = c.array('removed_links', removed_links, 'u4', (prefix + 'removed_link_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
+    desc.patch = c.inner(patch, 'removed_triangles', _patch_desc, 'patch.')
     desc.vertex_count = c.n.setdefault(prefix + 'vertex_count', 0)
     desc.link_count = c.n.setdefault(prefix + 'link_count', 0)
     desc.removed_link_count = c.n.setdefault(prefix + 'removed_link_count', 0)
@@ -1373,12 +1390,12 @@ class Surface(Object):
         return made
 
     def edit(self, vertices: Optional[ArrayLike] = None, stiffness: Optional[ArrayLike] = None,
-            links: Optional[ArrayLike] = None, removed_links: Optional[ArrayLike] = None, *,
+            links: Optional[ArrayLike] = None, removed_links: Optional[ArrayLike] = None, *, patch: Any = None,
             progress: Optional[Progress] = None) -> "Surface":
-        """Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface
-        shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites
-        do, and a link costs up to six paths. The library factorises again with the same ordering where that costs
-        less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
+        """Makes a surface with another stiffness, other links or other triangles from a surface, which stays as it is.
+        The new surface shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its
+        rim, as sites do, and a link costs up to six paths. The library factorises again with the same ordering where
+        that costs less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
 
         Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or
         more. Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so
@@ -1388,15 +1405,22 @@ class Surface(Object):
         and dropped. The new surface is the one that Surface.relink makes of the same list of links.
         Surface.components gives the new components. Light pieces and contacts stay as they are.
 
+        After a patch the surface is the one that Surface makes of the triangles without the removed ones and with the
+        new ones, Weld.NONE for the new vertices. Vertices keep their stiffness, new ones have 1. Distances,
+        directions and quads make a factor of their own when they are first asked for, as on a new surface. Patches
+        over a quarter of the surface, and with Operator.CLAMPED, make the whole operator and its factor anew. Take
+        links out before, and put them in again after it.
+
         Solver.move_to and Pose.move_to take sites and handles along. Soft sites keep the unit of their stiffness
-        while links stay; other links change it as they do for Surface.relink. Surface.save is refused: save the
-        factor of the surface before its edits. Memory limits hold for both surfaces together.
+        while links and triangles stay; others change it as they do for Surface.relink. Surface.save is refused: save
+        the factor of the surface before its edits. Memory limits hold for both surfaces together.
 
         vertices: (vertex_count,) as given; other vertices keep their stiffness. None: all vertices in order
         stiffness: (vertex_count,) 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. None: no
             stiffness changes, and vertex_count is 0
         links: (link_count,) links that come in, after those that stay
         removed_links: (removed_link_count,) links that go out, by their numbers in Surface.links
+        patch: triangles that go and come, or a cut; the edit changes nothing else then
         progress: an object to poll and cancel through
 
         Raises CancelledError, ConflictError, EmptyError, InvalidArgumentError, NonFiniteError, NotFoundError,
@@ -1404,11 +1428,23 @@ class Surface(Object):
         """
         c = Call(self)
         desc = _surface_edit_desc(c, 'list_', vertices=vertices, stiffness=stiffness, links=links,
-                removed_links=removed_links, progress=progress)
+                removed_links=removed_links, patch=patch, progress=progress)
         made = type(self).__new__(type(self))
         c.n.update(self._n)
         made._own('hf_surface_edit', c, self._handle, ref(desc))
         return made
+
+    def cuts(self) -> np.ndarray:
+        """Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_surface_get_cuts', self._handle, room['capacity'], address(made['cuts']), ref(count))
+
+        found = c.grow(self, 'hf_surface_get_cuts', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'cuts': (np.dtype(_raw.hf_cut_corner), ('capacity',))})
+        return found['cuts']
 
     def stiffness(self) -> np.ndarray:
         """Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices."""
@@ -3811,7 +3847,7 @@ class Weights(Recorded):
 
 __all__ = [
     'Base', 'BlendInfluences', 'BlendInfo', 'BlendRows', 'BodySide', 'Certificate', 'Chain', 'ChainMatch',
-    'Critical', 'CriticalInfo', 'CriticalPoint', 'CurveKind', 'DeformInfo', 'Detail', 'Direction',
+    'Critical', 'CriticalInfo', 'CriticalPoint', 'CurveKind', 'CutCorner', 'DeformInfo', 'Detail', 'Direction',
     'DirectionStatistics', 'DistanceMethod', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo',
     'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines',
     'JointFlag', 'JointInfo', 'JointKind', 'Levels', 'Link', 'LinkMode', 'LinksInfo', 'MeshStatistics',

@@ -469,6 +469,24 @@ class hf_gaps_info(Struct):
                 c_uint32), ("reserved", c_uint32)]
 
 
+class hf_patch_desc(Struct):
+    """Lists triangles that go, vertices and triangles that come in, and edges to cut along."""
+    struct_size: int
+    removed_triangle_count: int
+    new_vertex_count: int
+    new_triangle_count: int
+    cut_edge_count: int
+    reserved: int
+    removed_triangles: int
+    new_positions: int
+    new_triangles: int
+    cut_edges: int
+    _fields_ = [("struct_size", c_uint32), ("removed_triangle_count", c_uint32), ("new_vertex_count", c_uint32),
+                ("new_triangle_count", c_uint32), ("cut_edge_count", c_uint32), ("reserved", c_uint32),
+                ("removed_triangles", c_void_p), ("new_positions", c_void_p), ("new_triangles", c_void_p),
+                ("cut_edges", c_void_p)]
+
+
 class hf_surface_edit_desc(Struct):
     """Lists the changes of hf_surface_edit"""
     struct_size: int
@@ -479,10 +497,20 @@ class hf_surface_edit_desc(Struct):
     removed_link_count: int
     links: int
     removed_links: int
+    patch: int
     progress: int
     _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("vertices", c_void_p), ("stiffness",
                 c_void_p), ("link_count", c_uint32), ("removed_link_count", c_uint32), ("links", c_void_p),
-                ("removed_links", c_void_p), ("progress", c_void_p)]
+                ("removed_links", c_void_p), ("patch", c_void_p), ("progress", c_void_p)]
+
+
+class hf_cut_corner(Struct):
+    """A corner of a triangle that a cut gave another vertex."""
+    triangle: int
+    corner: int
+    vertex: int
+    copied: int
+    _fields_ = [("triangle", c_uint32), ("corner", c_uint32), ("vertex", c_uint32), ("copied", c_uint32)]
 
 
 class hf_surface_statistics(Struct):
@@ -1612,7 +1640,7 @@ class hf_weights_mirror_statistics(Struct):
                 ("worst_vertex_off", c_double)]
 
 
-STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_mesh_statistics, hf_links_info, hf_gaps_info, hf_surface_edit_desc, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_pose_statistics, hf_skin_info, hf_blend_info, hf_blend_rows, hf_blend_influences, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_statistics, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_weights_mirror_statistics]
+STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_mesh_statistics, hf_links_info, hf_gaps_info, hf_patch_desc, hf_surface_edit_desc, hf_cut_corner, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_pose_statistics, hf_skin_info, hf_blend_info, hf_blend_rows, hf_blend_influences, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_statistics, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_weights_mirror_statistics]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1636,6 +1664,7 @@ PROTOTYPES = {
     "hf_surface_measure_gaps": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_surface_relink": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_surface_edit": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_surface_get_cuts": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_surface_get_stiffness": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_surface_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_save": (c_int32, [c_void_p, c_int32, c_void_p, c_size_t, c_void_p, c_void_p]),

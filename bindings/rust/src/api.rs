@@ -260,8 +260,44 @@ impl<'a> GraphOptions<'a> {
     }
 }
 
-/// Lists the changes of `Surface::edit`: stiffness, links, or both. The stiffness of a vertex is a number by which the
-/// weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a
+/// Lists triangles that go, vertices and triangles that come in, and edges to cut along. Vertices and triangles keep
+/// their numbers; new ones follow those there are. New vertices are welded to no other, so two can lie at one place. A
+/// vertex without a triangle is isolated from then on, and a new triangle can take it again.
+///
+/// A cut gives the vertices along it copies, and the triangles on one side take these. `Surface::cuts` lists the corners.
+/// The end of a cut inside the surface stays one vertex, so a cut takes two edges there. A cut around a part, or from
+/// border to border, parts it from the rest: it is a component then.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Patch<'a> {
+    /// `[removed_triangle_count]` triangles of your mesh
+    pub removed_triangles: Option<&'a [u32]>,
+    /// `[new_vertex_count x 3]` in the unit of your mesh
+    pub new_positions: Option<&'a [f64]>,
+    /// `[new_triangle_count x 3]` vertices of your mesh and new ones
+    pub new_triangles: Option<&'a [u32]>,
+    /// `[cut_edge_count x 2]` the two vertices of an edge
+    pub cut_edges: Option<&'a [u32]>,
+}
+impl<'a> Patch<'a> {
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_patch_desc> {
+        let mut desc = raw::hf_patch_desc { ..Default::default() };
+        desc.removed_triangles = c.array(self.removed_triangles, "removed_triangles",
+            &[&format!("{prefix}removed_triangle_count")])?;
+        desc.new_positions = c.array(self.new_positions, "new_positions", &[&format!("{prefix}new_vertex_count"),
+            "3"])?;
+        desc.new_triangles = c.array(self.new_triangles, "new_triangles", &[&format!("{prefix}new_triangle_count"),
+            "3"])?;
+        desc.cut_edges = c.array(self.cut_edges, "cut_edges", &[&format!("{prefix}cut_edge_count"), "2"])?;
+        desc.removed_triangle_count = c.count(&format!("{prefix}removed_triangle_count"), 0)?;
+        desc.new_vertex_count = c.count(&format!("{prefix}new_vertex_count"), 0)?;
+        desc.new_triangle_count = c.count(&format!("{prefix}new_triangle_count"), 0)?;
+        desc.cut_edge_count = c.count(&format!("{prefix}cut_edge_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// Lists the changes of `Surface::edit`: stiffness and links, or a patch. The stiffness of a vertex is a number by which
+/// the weights of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a
 /// row. A region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a
 /// shell. A region of small stiffness takes up the bending around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -275,6 +311,8 @@ pub struct SurfaceEdit<'a> {
     pub links: Option<&'a [raw::hf_link]>,
     /// `[removed_link_count]` links that go out, by their numbers in `Surface::links`
     pub removed_links: Option<&'a [u32]>,
+    /// `None`, or triangles that go and come, or a cut; the edit changes nothing else then
+    pub patch: Option<Patch<'a>>,
     /// `None`, or an object to poll and cancel through
     pub progress: Option<&'a Progress>,
 }
@@ -286,6 +324,10 @@ impl<'a> SurfaceEdit<'a> {
         desc.links = c.array(self.links, "links", &[&format!("{prefix}link_count")])?;
         desc.removed_links = c.array(self.removed_links, "removed_links", &[&format!("{prefix}removed_link_count")])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        if let Some(inner) = &self.patch {
+            let inner = inner.fill(c, "patch.")?;
+            desc.patch = c.keep(inner);
+        }
         desc.vertex_count = c.count(&format!("{prefix}vertex_count"), 0)?;
         desc.link_count = c.count(&format!("{prefix}link_count"), 0)?;
         desc.removed_link_count = c.count(&format!("{prefix}removed_link_count"), 0)?;
@@ -1763,10 +1805,10 @@ impl Surface {
         Ok(Surface { handle: handle_, counts: c.counts(&["vertex_count"]) })
     }
 
-    /// Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface shares
-    /// the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do, and a
-    /// link costs up to six paths. The library factorises again with the same ordering where that costs less, and for bi-
-    /// harmonic fields. A surface that is edited back has the fields of the old one.
+    /// Makes a surface with another stiffness, other links or other triangles from a surface, which stays as it is. The
+    /// new surface shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as
+    /// sites do, and a link costs up to six paths. The library factorises again with the same ordering where that costs
+    /// less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
     ///
     /// Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
     /// Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so regions,
@@ -1776,9 +1818,15 @@ impl Surface {
     /// dropped. The new surface is the one that `Surface::relink` makes of the same list of links. `Surface::components`
     /// gives the new components. Light pieces and contacts stay as they are.
     ///
+    /// After a patch the surface is the one that `Surface::new` makes of the triangles without the removed ones and with
+    /// the new ones, [`raw::HF_WELD_NONE`] for the new vertices. Vertices keep their stiffness, new ones have 1.
+    /// Distances, directions and quads make a factor of their own when they are first asked for, as on a new surface.
+    /// Patches over a quarter of the surface, and with [`raw::HF_OPERATOR_CLAMPED`], make the whole operator and its
+    /// factor anew. Take links out before, and put them in again after it.
+    ///
     /// `Solver::move_to` and `Pose::move_to` take sites and handles along. Soft sites keep the unit of their stiffness
-    /// while links stay; other links change it as they do for `Surface::relink`. `Surface::save` is refused: save the
-    /// factor of the surface before its edits. Memory limits hold for both surfaces together.
+    /// while links and triangles stay; others change it as they do for `Surface::relink`. `Surface::save` is refused:
+    /// save the factor of the surface before its edits. Memory limits hold for both surfaces together.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_EMPTY`],
     /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`],
@@ -1791,6 +1839,24 @@ impl Surface {
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_edit(self.handle, &desc, &mut handle_) })?;
         Ok(Surface { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts.
+    pub fn cuts(&self) -> Result<Vec<raw::hf_cut_corner>> {
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        let mut count = 0;
+        c.learn("capacity", Call::FIRST);
+        let mut cuts: Vec<raw::hf_cut_corner> = Vec::new();
+        loop {
+            let cuts_at = c.room(&mut cuts, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_get_cuts(self.handle, c.count("capacity", 0)?, cuts_at, &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        cuts.truncate(c.product(&["capacity"]));
+        Ok(cuts)
     }
 
     /// Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices.

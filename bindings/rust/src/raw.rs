@@ -484,6 +484,22 @@ pub struct hf_gaps_info {
     pub reserved: u32,
 }
 
+/// Lists triangles that go, vertices and triangles that come in, and edges to cut along.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_patch_desc {
+    pub struct_size: u32,
+    pub removed_triangle_count: u32,
+    pub new_vertex_count: u32,
+    pub new_triangle_count: u32,
+    pub cut_edge_count: u32,
+    pub reserved: u32,
+    pub removed_triangles: *const u32,
+    pub new_positions: *const f64,
+    pub new_triangles: *const u32,
+    pub cut_edges: *const u32,
+}
+
 /// Lists the changes of hf_surface_edit
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -496,7 +512,18 @@ pub struct hf_surface_edit_desc {
     pub removed_link_count: u32,
     pub links: *const hf_link,
     pub removed_links: *const u32,
+    pub patch: *const hf_patch_desc,
     pub progress: hf_progress,
+}
+
+/// A corner of a triangle that a cut gave another vertex.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_cut_corner {
+    pub triangle: u32,
+    pub corner: u32,
+    pub vertex: u32,
+    pub copied: u32,
 }
 
 /// hf_surface_get_statistics writes sizes and times of a surface here.
@@ -1605,9 +1632,9 @@ macro_rules! figures {
 
 sized! {
     hf_factor_desc hf_links_desc hf_faces_desc hf_surface_desc hf_graph_desc hf_surface_info hf_surface_report
-        hf_mesh_statistics hf_links_info hf_gaps_info hf_surface_edit_desc hf_surface_statistics hf_pick_desc hf_hit
-        hf_solver_desc hf_solver_info hf_sites_desc hf_edit_desc hf_sites_info hf_solve_info hf_preview_info
-        hf_certificate hf_solver_statistics hf_isolines hf_critical_info hf_geodesics_desc hf_path
+        hf_mesh_statistics hf_links_info hf_gaps_info hf_patch_desc hf_surface_edit_desc hf_surface_statistics
+        hf_pick_desc hf_hit hf_solver_desc hf_solver_info hf_sites_desc hf_edit_desc hf_sites_info hf_solve_info
+        hf_preview_info hf_certificate hf_solver_statistics hf_isolines hf_critical_info hf_geodesics_desc hf_path
         hf_extremities_desc hf_direction_desc hf_direction_statistics hf_pose_desc hf_pose_info hf_handles_desc
         hf_handle_info hf_deform_info hf_deform_desc hf_pose_statistics hf_skin_info hf_blend_info hf_blend_rows
         hf_blend_influences hf_handle_proposals_desc hf_quads_desc hf_quads_info hf_quads_mesh hf_streamlines
@@ -1620,8 +1647,9 @@ sized! {
 }
 
 zeroed! {
-    hf_array hf_array_out hf_error_detail hf_allocator hf_job_runner hf_link hf_place hf_critical_point hf_extremity
-        hf_singularity hf_transform hf_handle_proposal hf_chain_match hf_joint_info hf_chain
+    hf_array hf_array_out hf_error_detail hf_allocator hf_job_runner hf_link hf_cut_corner hf_place
+        hf_critical_point hf_extremity hf_singularity hf_transform hf_handle_proposal hf_chain_match hf_joint_info
+        hf_chain
 }
 
 figures! {
@@ -1708,6 +1736,7 @@ extern "C" {
     pub fn hf_surface_measure_gaps(surface: hf_surface, positions: *const hf_array, capacity: u32, out_gaps: *mut f64, out_info: *mut hf_gaps_info) -> i32;
     pub fn hf_surface_relink(surface: hf_surface, links: *const hf_links_desc, progress: hf_progress, out_surface: *mut hf_surface) -> i32;
     pub fn hf_surface_edit(surface: hf_surface, desc: *const hf_surface_edit_desc, out_surface: *mut hf_surface) -> i32;
+    pub fn hf_surface_get_cuts(surface: hf_surface, capacity: u32, out_cuts: *mut hf_cut_corner, out_count: *mut u32) -> i32;
     pub fn hf_surface_get_stiffness(surface: hf_surface, capacity: u32, out_stiffness: *mut f64, out_count: *mut u32) -> i32;
     pub fn hf_surface_get_statistics(surface: hf_surface, out_statistics: *mut hf_surface_statistics) -> i32;
     pub fn hf_surface_save(surface: hf_surface, field_kind: i32, progress: hf_progress, capacity: usize, out_bytes: *mut c_void, out_size: *mut usize) -> i32;

@@ -337,12 +337,12 @@ TEST(CutEdges, PartsWhatItShould) {
     Index components;
   };
   const Case cases[] = {
-      {{6, 7, 7, 8}, 1, 1},                                            // inside: the middle parts
-      {{5, 6}, 1, 1},                                                  // from the border: its end there parts
-      {{10, 11, 11, 12, 12, 13, 13, 14}, 5, 2},                        // from border to border
+      {{6, 7, 7, 8}, 1, 1},                                                // inside: the middle parts
+      {{5, 6}, 1, 1},                                                      // from the border: its end there parts
+      {{10, 11, 11, 12, 12, 13, 13, 14}, 5, 2},                            // from border to border
       {{6, 7, 7, 8, 8, 13, 13, 18, 18, 17, 17, 16, 16, 11, 11, 6}, 8, 2},  // a loop
-      {{11, 12, 12, 13, 7, 12, 12, 17}, 3, 1},                         // a cross: its middle is four
-      {{0, 1, 1, 2, 6, 7, 7, 12}, 1, 1},                               // the border itself parts nothing
+      {{11, 12, 12, 13, 7, 12, 12, 17}, 3, 1},                             // a cross: its middle is four
+      {{0, 1, 1, 2, 6, 7, 7, 12}, 1, 1},                                   // the border itself parts nothing
   };
   for (const Case& one : cases) {
     Model model(mesh);
