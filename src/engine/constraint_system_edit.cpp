@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "engine/dependence.h"
 #include "engine/sparse_sites.h"
+#include "engine/vertex_map.h"
 
 namespace hf_inner {
 namespace {
@@ -245,7 +246,7 @@ Index ConstraintEdit::known_column(Index row, std::size_t group) const noexcept 
   const auto &there = known_.state->entries[at(row)], &here = state_.entries[at(row)];
   const Site &a = there.site, &b = here.site;
   const auto is_same = [&](Index there_vertex, Index vertex) {
-    return (known_.vertex && there_vertex >= 0 ? (*known_.vertex)[at(there_vertex)] : there_vertex) == vertex;
+    return (known_.map && there_vertex >= 0 ? known_.map->to(there_vertex) : there_vertex) == vertex;
   };
   const bool same = there.used() && there.path.group == static_cast<Index>(group) && a.part == b.part &&
                     std::equal(a.vertex, a.vertex + 3, b.vertex, is_same) &&

@@ -10,6 +10,8 @@
 
 namespace hf_inner {
 
+class VertexMap;
+
 struct ConstraintState {
   // A row of the dense system has a number. The row of a site has the number of its slot. If the factor eliminates a
   // vertex and its site was removed, its value is unknown. The row of this value has the number -2 - b, with b the
@@ -86,7 +88,7 @@ struct ConstraintState {
 struct KnownPaths {
   std::shared_ptr<const ConstraintState> state;  // null: none
   std::shared_ptr<const Factor> factor;
-  std::shared_ptr<const Vector<Index>> vertex;  // by vertex of that system: its number here; null: the same
+  std::shared_ptr<const VertexMap> map;  // from the vertices of that system to those of this one; null: the same
 };
 
 }  // namespace hf_inner

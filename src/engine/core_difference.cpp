@@ -47,11 +47,11 @@ class Difference {
   // The vertex of `from` that an unknown is, or none for a new one; of `to`, or none for one that went.
   Index before_of(Index x) const noexcept {
     if (!unknowns_) return x;
-    const Index v = unknowns_->unknown_of[at(x)];
+    const Index v = unknowns_->vertex_before(x);
     return v < from_.size() ? v : Mesh::none;
   }
   Index after_of(Index x) const noexcept { return x < to_.size() ? x : Mesh::none; }
-  Index unknown_of_before(Index v) const noexcept { return unknowns_ ? unknowns_->of_before[at(v)] : v; }
+  Index unknown_of_before(Index v) const noexcept { return unknowns_ ? unknowns_->of_before(v) : v; }
 
   double raise_before(Index x) const noexcept {
     const Index v = before_of(x);
@@ -92,7 +92,7 @@ class Difference {
   void list_patch() {
     Vector<Index>& rows = change_.unknown;
     rows.insert(rows.end(), unknowns_->fresh.begin(), unknowns_->fresh.end());
-    for (Index x = to_.size(); x < static_cast<Index>(unknowns_->unknown_of.size()); ++x) rows.push_back(x);
+    for (Index x = to_.size(); x < unknowns_->count(); ++x) rows.push_back(x);
     const auto take = [&](Index x) {
       if (before_of(x) == Mesh::none || after_of(x) == Mesh::none) return;
       read_before(x);
@@ -180,24 +180,11 @@ class Difference {
 }  // namespace
 
 Unknowns::Unknowns(const Core& from, const Core& to)
-    : map(from.mesh, to.mesh, *from.memory),
-      of_before(at(from.size()), Mesh::none, from.memory.get()),
-      unknown_of(at(to.size()), Mesh::none, from.memory.get()),
-      fresh(from.memory.get()) {
-  Index next = from.size();
-  for (Index v = 0; v < to.size(); ++v) {
-    const Index u = map.from[at(v)];
-    unknown_of[at(v)] = u == Mesh::none ? next++ : u;
-    if (u == Mesh::none)
-      fresh.push_back(v);
-    else
-      of_before[at(u)] = v;
-  }
-  for (Index u = 0; u < from.size(); ++u) {
-    if (of_before[at(u)] != Mesh::none) continue;
-    of_before[at(u)] = static_cast<Index>(unknown_of.size());
-    unknown_of.push_back(u);
-  }
+    : map(from.mesh, to.mesh, *from.memory), fresh(from.memory.get()), went(from.memory.get()) {
+  for (Index v = 0; v < to.size(); ++v)
+    if (map.from(v) == Mesh::none) fresh.push_back(v);
+  for (Index u = 0; u < from.size(); ++u)
+    if (map.to(u) == Mesh::none) went.push_back(u);
   scale = std::sqrt(from.mean_diagonal.front());
 }
 

@@ -15,11 +15,24 @@ struct Unknowns {
     return from.mesh.given_of_inner.data() == to.mesh.given_of_inner.data();
   }
   Unknowns(const Core& from, const Core& to);
+  // The unknown that a vertex of `from` is.
+  Index of_before(Index u) const noexcept {
+    const Index v = map.to(u);
+    if (v != Mesh::none) return v;
+    return map.after_count() + static_cast<Index>(std::lower_bound(went.begin(), went.end(), u) - went.begin());
+  }
+  // The vertex of `from` that an unknown is, or map.before_count() + j for the j-th new vertex.
+  Index vertex_before(Index x) const noexcept {
+    if (x >= map.after_count()) return went[at(x - map.after_count())];
+    const Index u = map.from(x);
+    if (u != Mesh::none) return u;
+    return map.before_count() + static_cast<Index>(std::lower_bound(fresh.begin(), fresh.end(), x) - fresh.begin());
+  }
+  Index count() const noexcept { return map.after_count() + static_cast<Index>(went.size()); }
+
   VertexMap map;
-  Vector<Index> of_before;   // by vertex of `from`
-  Vector<Index> unknown_of;  // by unknown: the vertex of `from`, or from.size() + j for the j-th new vertex
-  Vector<Index> fresh;       // the new vertices
-  double scale = 1;          // s of extended_factor.h
+  Vector<Index> fresh, went;  // the new vertices of `to`, and the vertices of `from` that are not in it; ascending
+  double scale = 1;           // s of extended_factor.h
 };
 
 // unknowns: null where the two number their vertices alike. The rows in which the matrices differ are listed, and which

@@ -37,29 +37,29 @@ struct PieceDiagonals {
     const auto diagonal_before = [&](Index u) { return std::fabs(plain.laplacian.value[plain.laplacian.diagonal(u)]); };
     bool same = old.component_count() == mesh.component_count();
     for (Index v = 0; same && v < mesh.vertex_count(); ++v) {
-      const Index u = patch.map.from[at(v)];
+      const Index u = patch.map.from(v);
       same = u == Mesh::none || old.component[at(u)] == mesh.component[at(v)];
     }
     if (!same) {
       sum_up(mesh, [&](Index v) {
         const Index changed = patch.find(v);
-        return changed >= 0 ? patch.diagonal(changed) : diagonal_before(patch.map.from[at(v)]);
+        return changed >= 0 ? patch.diagonal(changed) : diagonal_before(patch.map.from(v));
       });
       return;
     }
     for (std::size_t i = 0; i < patch.vertex.size(); ++i) {
-      const Index u = patch.map.from[at(patch.vertex[i])];
+      const Index u = patch.map.from(patch.vertex[i]);
       const std::size_t c = at(mesh.component[at(patch.vertex[i])]);
       sum[c] += std::fabs(patch.diagonal(static_cast<Index>(i))) - (u == Mesh::none ? 0.0 : diagonal_before(u));
       count[c] += u == Mesh::none;
     }
     for (Index u = 0; u < old.vertex_count(); ++u) {
-      if (patch.map.to[at(u)] != Mesh::none) continue;
+      if (patch.map.to(u) != Mesh::none) continue;
       sum[at(old.component[at(u)])] -= diagonal_before(u);
       count[at(old.component[at(u)])] -= 1;
     }
     for (std::size_t c = 0; c < first.size(); ++c) {
-      first[c] = patch.map.to[at(first[c])];
+      first[c] = patch.map.to(first[c]);
       for (Index v = 0; first[c] == Mesh::none && v < mesh.vertex_count(); ++v)
         if (at(mesh.component[at(v)]) == c) first[c] = v;
     }
@@ -221,7 +221,7 @@ const SymmetricMatrix& EditedMatrix::get() const {
   made.row.reserve(room);
   made.value.reserve(room);
   EditedRows rows(before, patch_.get(), links_.get(), stiffness_.get(), *plain_->memory);
-  const Index size = patch_ ? static_cast<Index>(patch_->map.from.size()) : before.size();
+  const Index size = patch_ ? patch_->map.after_count() : before.size();
   for (Index v = 0; v < size; ++v) {
     rows.read(v);
     made.row.insert(made.row.end(), rows.column.begin(), rows.column.end());
@@ -258,9 +258,11 @@ std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, SurfaceE
   if (Unknowns::are_same(*near, *made)) {
     change = core_difference(*near, *made, nullptr);
   } else {
-    Unknowns unknowns(*near, *made);
+    const Unknowns unknowns(*near, *made);
     change = core_difference(*near, *made, &unknowns);
-    base = extend_factor(std::move(base), std::move(unknowns.unknown_of), made->size(), unknowns.scale, *made->memory);
+    Vector<Index> unknown_of(at(unknowns.count()), made->memory.get());
+    for (Index x = 0; x < unknowns.count(); ++x) unknown_of[at(x)] = unknowns.vertex_before(x);
+    base = extend_factor(std::move(base), unknown_of, made->size(), unknowns.scale, *made->memory);
   }
   const SiteCost cost(near->factor->statistics());
   const double inside = static_cast<double>(change.inside.size());

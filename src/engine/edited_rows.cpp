@@ -13,9 +13,9 @@ EditedRows::Row EditedRows::plain_row(Index v) {
   if (!patch_) return row_of(plain_.column_start, plain_.row, plain_.value, v);
   const Index changed = patch_->find(v);
   if (changed >= 0) return row_of(patch_->start, patch_->column, patch_->value, changed);
-  const Row before = row_of(plain_.column_start, plain_.row, plain_.value, patch_->map.from[at(v)]);
+  const Row before = row_of(plain_.column_start, plain_.row, plain_.value, patch_->map.from(v));
   own_column_.clear();
-  for (std::size_t i = 0; i < before.size; ++i) own_column_.push_back(patch_->map.to[at(before.column[i])]);
+  for (std::size_t i = 0; i < before.size; ++i) own_column_.push_back(patch_->map.to(before.column[i]));
   return {own_column_.data(), before.value, before.size};
 }
 

@@ -1,5 +1,7 @@
 #include "engine/geometry.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/index.h"
 #include "base/timer.h"
@@ -18,20 +20,16 @@ void count_inside_out(const Mesh& mesh, MeshReport& report, Memory& memory) {
   report.first_inside_out = mesh.first_of_given([&](Index v) { return sides[at(mesh.component[at(v)])] < 0; });
 }
 
-// Sums up the areas of some vertices again.
-void sum_areas(const Mesh& mesh, const Vector<Index>& vertices, SharedVector<double>& areas, Memory& memory) {
-  Vector<std::uint8_t> asked(mesh.positions.size(), 0, &memory);
-  for (const Index v : vertices) {
-    asked[at(v)] = 1;
-    areas[at(v)] = 0;
-  }
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+// Sums up the areas of vertices with other triangles again.
+void sum_areas(const PatchedMesh& made, SharedVector<double>& areas) {
+  const Mesh& mesh = made.mesh;
+  for (const Index v : made.touched) areas[at(v)] = 0;
+  for (const Index t : made.around) {
     const Index* const v = mesh.triangle(t);
-    if ((asked[at(v[0])] | asked[at(v[1])] | asked[at(v[2])]) == 0) continue;
     const Vec3 a = mesh.positions[at(v[0])];
     const double third = norm(cross(mesh.positions[at(v[1])] - a, mesh.positions[at(v[2])] - a)) / 6.0;
     for (int k = 0; k < 3; ++k)
-      if (asked[at(v[k])]) areas[at(v[k])] += third;
+      if (std::binary_search(made.touched.begin(), made.touched.end(), v[k])) areas[at(v[k])] += third;
   }
 }
 
@@ -188,14 +186,17 @@ std::shared_ptr<const Geometry> Geometry::patched(std::shared_ptr<const Geometry
   Timer timer;
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(from->memory, from->memory, from->jobs);
   PatchedMesh made = patched_mesh(from->mesh, patch, *shape->memory);
-  shape->mesh = std::move(made.mesh);
   shape->operator_kind = from->operator_kind;
   shape->family = from->family;
   shape->is_patched = true;
-  shape->areas.resize(shape->mesh.positions.size());
+  const std::size_t count = made.mesh.positions.size();
+  shape->areas.reserve(count);
+  shape->areas.assign(from->areas.begin(), from->areas.end());
   for (std::size_t v = 0; v < made.number.size(); ++v)
     if (made.number[v] != Mesh::none) shape->areas[at(made.number[v])] = from->areas[v];
-  sum_areas(shape->mesh, made.touched, shape->areas, *shape->memory);
+  shape->areas.resize(count);
+  sum_areas(made, shape->areas);
+  shape->mesh = std::move(made.mesh);
   count_given(*shape);
   shape->weld_ms = from->weld_ms + timer.milliseconds();
   return shape;

@@ -37,9 +37,7 @@ std::shared_ptr<SiteSolver> GreenSolver::on(std::shared_ptr<const Core> core) co
   if (state().base || state().groups.empty()) return made;
   KnownPaths known{system_.snapshot(), core_->factor, nullptr};
   if (!Unknowns::are_same(*core_, *core)) {
-    const auto vertex = make_shared_in<Vector<Index>>(*core->memory);
-    *vertex = std::move(VertexMap(core_->mesh, core->mesh, *core->memory).to);
-    known.vertex = vertex;
+    known.map = make_shared_in<VertexMap>(*core->memory, core_->mesh, core->mesh, *core->memory);
   }
   made->system_.know(std::move(known));
   return made;

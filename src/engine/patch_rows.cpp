@@ -84,7 +84,7 @@ class Neighbourhood {
   void take_added(Index t) {
     added_.push_back(t);
     for (int k = 0; k < 3; ++k) {
-      const Index v = after_.mesh.triangle(t)[k], u = out_.map.from[at(v)];
+      const Index v = after_.mesh.triangle(t)[k], u = out_.map.from(v);
       (u == Mesh::none ? fresh_ : touched_).push_back(u == Mesh::none ? v : u);
     }
   }
@@ -114,6 +114,22 @@ class Neighbourhood {
     return whole;
   }
 
+  // The triangles with a corner in the neighbourhood, ascending.
+  Vector<Index> triangles_near() const {
+    const Topology& topology = plain_.topology();
+    Vector<Index> out(&memory_);
+    for (const Index v : vertices_) {
+      for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
+        const std::size_t e = at(topology.neighbour_edge[at(i)]);
+        for (Index side = topology.edge_triangle_start[e]; side < topology.edge_triangle_start[e + 1]; ++side)
+          out.push_back(topology.triangle(side));
+      }
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  }
+
   void make_operators() {
     const Mesh& mesh = plain_.mesh;
     Mesh old_mesh(memory_), new_mesh(memory_);
@@ -125,13 +141,10 @@ class Neighbourhood {
     Vector<Index> old_corners(&memory_), new_corners(&memory_);
     inside_.assign(vertices_.size(), 0);
     all_.assign(vertices_.size(), 0);
-    auto gone = gone_.begin();
-    const Index* corner = mesh.corners.data();
-    for (Index t = 0; t < mesh.triangle_count(); ++t, corner += 3) {
-      const bool leaves = gone != gone_.end() && *gone == t;
-      if (leaves) ++gone;
+    for (const Index t : triangles_near()) {
+      const Index* const corner = mesh.triangle(t);
+      const bool leaves = std::binary_search(gone_.begin(), gone_.end(), t);
       const Index v[3] = {local_[at(corner[0])], local_[at(corner[1])], local_[at(corner[2])]};
-      if (v[0] == Mesh::none && v[1] == Mesh::none && v[2] == Mesh::none) continue;
       const bool is_inside = v[0] != Mesh::none && v[1] != Mesh::none && v[2] != Mesh::none;
       for (const Index u : v) {
         if (u == Mesh::none) continue;
@@ -144,7 +157,7 @@ class Neighbourhood {
     }
     for (const Index t : added_) {
       for (int k = 0; k < 3; ++k) {
-        const Index v = after_.mesh.triangle(t)[k], u = out_.map.from[at(v)];
+        const Index v = after_.mesh.triangle(t)[k], u = out_.map.from(v);
         const auto there = std::lower_bound(fresh_.begin(), fresh_.end(), v);
         new_corners.push_back(u != Mesh::none
                                   ? local_[at(u)]
@@ -239,7 +252,7 @@ class Neighbourhood {
   }
 
   Index number_after(Index v) const noexcept {
-    return at(v) < vertices_.size() ? out_.map.to[at(vertices_[at(v)])] : fresh_[at(v) - vertices_.size()];
+    return at(v) < vertices_.size() ? out_.map.to(vertices_[at(v)]) : fresh_[at(v) - vertices_.size()];
   }
 
   // Entries between two rows that differ are new. The others are those of the surface before, so the matrix stays
@@ -266,7 +279,7 @@ class Neighbourhood {
         const Row before = row_of(plain_.laplacian, vertices_[at(v)]);
         for (Index i = 0; i < before.size; ++i) {
           const Index u = local_[at(before.column[i])];
-          if (u == Mesh::none || !differs_[at(u)]) row.push_back({out_.map.to[at(before.column[i])], before.value[i]});
+          if (u == Mesh::none || !differs_[at(u)]) row.push_back({out_.map.to(before.column[i]), before.value[i]});
         }
       }
       double sum = 0;
@@ -297,18 +310,6 @@ class Neighbourhood {
 };
 
 }  // namespace
-
-VertexMap::VertexMap(const Mesh& before, const Mesh& after, Memory& memory)
-    : to(before.positions.size(), Mesh::none, &memory), from(after.positions.size(), Mesh::none, &memory) {
-  Index last = Mesh::none;  // a vertex that went and came again counts as a new one, so that numbers ascend
-  for (std::size_t v = 0; v < from.size(); ++v) {
-    const std::size_t given = at(after.given_of_inner[v]);
-    const Index u = given < before.inner_of_given.size() ? before.inner_of_given[given] : Mesh::none;
-    if (u == Mesh::none || u <= last) continue;
-    last = from[v] = u;
-    to[at(u)] = static_cast<Index>(v);
-  }
-}
 
 std::shared_ptr<const PatchRows> PatchRows::make(const Core& plain, const Geometry& after) {
   if (after.operator_kind == OperatorKind::clamped) return nullptr;

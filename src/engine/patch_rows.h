@@ -8,15 +8,9 @@
 // together is Delaunay. If the test fails, more rings are taken.
 #pragma once
 #include "engine/core.h"
+#include "engine/vertex_map.h"
 
 namespace hf_inner {
-
-// Which inner vertices of two meshes of one family (Geometry::is_kin) are the same.
-struct VertexMap {
-  VertexMap(const Mesh& before, const Mesh& after, Memory& memory);
-  Vector<Index> to;    // by vertex before: its number after, or none
-  Vector<Index> from;  // by vertex after: its number before, or none; ascending where it is one
-};
 
 struct PatchRows {
   PatchRows(const Mesh& before, const Mesh& after, Memory& memory)

@@ -29,22 +29,21 @@ class ExtendedPaths final : public PathGroup {
 
 class ExtendedFactor final : public Factor {
  public:
-  ExtendedFactor(std::shared_ptr<const Factor> base, Vector<Index>&& unknown_of, Index count, double scale,
+  ExtendedFactor(std::shared_ptr<const Factor> base, Span<const Index> unknown_of, Index count, double scale,
                  Memory& memory)
       : base_(std::move(base)),
         memory_(memory),
-        unknown_of_(std::move(unknown_of)),
         count_(count),
         scale_(scale),
-        position_(unknown_of_.size(), &memory),
-        order_(unknown_of_.size(), &memory),
+        position_(unknown_of.size(), &memory),
+        order_(unknown_of.size(), &memory),
         statistics_(base_->statistics()) {
     const Span<const Index> there = base_->position();
     for (std::size_t i = 0; i < position_.size(); ++i) {
-      position_[i] = is_new(unknown_of_[i]) ? unknown_of_[i] : there[at(unknown_of_[i])];
+      position_[i] = is_new(unknown_of[i]) ? unknown_of[i] : there[at(unknown_of[i])];
       order_[at(position_[i])] = static_cast<Index>(i);
     }
-    statistics_.bytes += 12.0 * static_cast<double>(position_.size());
+    statistics_.bytes += 8.0 * static_cast<double>(position_.size());
   }
 
   Index size() const noexcept override { return static_cast<Index>(position_.size()); }
@@ -99,6 +98,11 @@ class ExtendedFactor final : public Factor {
  private:
   static const ExtendedPaths& of(const PathGroup& group) noexcept { return static_cast<const ExtendedPaths&>(group); }
   bool is_new(Index unknown) const noexcept { return unknown >= base_->size(); }
+  // The unknown of the base, or the row of a new one.
+  Index unknown_of(Index v) const noexcept {
+    const Index row = position_[at(v)];
+    return is_new(row) ? row : base_->order()[at(row)];
+  }
   void divide_new(double* z, Index channels) const noexcept {
     for (std::size_t i = at(base_->size()) * at(channels); i < position_.size() * at(channels); ++i) z[i] /= scale_;
   }
@@ -106,7 +110,7 @@ class ExtendedFactor final : public Factor {
   Vector<Index> split(Span<const Index> unknowns) const {
     Vector<Index> old(&memory_);
     for (const Index v : unknowns)
-      if (!is_new(unknown_of_[at(v)])) old.push_back(unknown_of_[at(v)]);
+      if (!is_new(unknown_of(v))) old.push_back(unknown_of(v));
     return old;
   }
   // Columns in the numbering of the base. The entries at new unknowns are left out.
@@ -121,7 +125,6 @@ class ExtendedFactor final : public Factor {
 
   std::shared_ptr<const Factor> base_;
   Memory& memory_;
-  Vector<Index> unknown_of_;
   Index count_;
   double scale_;
   Vector<Index> position_, order_;
@@ -143,7 +146,7 @@ ExtendedFactor::BaseColumns ExtendedFactor::base_columns(const SparseColumns& co
   BaseColumns out(memory);
   for (std::size_t i = 0; i < at(columns.count()); ++i) {
     for (Index e = columns.start[i]; e < columns.start[i + 1]; ++e) {
-      const Index unknown = unknown_of_[at(columns.row[at(e)])];
+      const Index unknown = unknown_of(columns.row[at(e)]);
       if (is_new(unknown)) continue;
       out.row.push_back(unknown);
       out.value.push_back(columns.value[at(e)]);
@@ -155,7 +158,7 @@ ExtendedFactor::BaseColumns ExtendedFactor::base_columns(const SparseColumns& co
 
 void ExtendedFactor::add_new(const SparseColumns& columns, std::size_t from, Index to, ExtendedPaths& group) const {
   for (Index e = columns.start[from]; e < columns.start[from + 1]; ++e) {
-    const Index unknown = unknown_of_[at(columns.row[at(e)])];
+    const Index unknown = unknown_of(columns.row[at(e)]);
     if (is_new(unknown)) group.entries.push_back({unknown, to, columns.value[at(e)] / scale_});
   }
 }
@@ -195,7 +198,7 @@ bool ExtendedFactor::rows_of(Span<const Index> unknowns, SparseVectors& out) con
   out.value.clear();
   std::size_t next = 0;
   for (const Index v : unknowns) {
-    const Index unknown = unknown_of_[at(v)];
+    const Index unknown = unknown_of(v);
     if (is_new(unknown)) {
       out.row.push_back(unknown);
       out.value.push_back(scale_);
@@ -244,9 +247,9 @@ void ExtendedFactor::project(const PathGroup& group, const double* z, Index chan
 
 }  // namespace
 
-std::shared_ptr<const Factor> extend_factor(std::shared_ptr<const Factor> base, Vector<Index> unknown_of, Index count,
-                                            double scale, Memory& memory) {
-  return make_shared_in<ExtendedFactor>(memory, std::move(base), std::move(unknown_of), count, scale, memory);
+std::shared_ptr<const Factor> extend_factor(std::shared_ptr<const Factor> base, Span<const Index> unknown_of,
+                                            Index count, double scale, Memory& memory) {
+  return make_shared_in<ExtendedFactor>(memory, std::move(base), unknown_of, count, scale, memory);
 }
 
 }  // namespace hf_inner

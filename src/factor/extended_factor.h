@@ -13,7 +13,7 @@ namespace hf_inner {
 
 // unknown_of: by unknown, the unknown of the base, or size() of the base + j for the j-th new one. Its first `count`
 // entries are the unknowns in use: refactor takes a matrix of these alone. scale: s.
-std::shared_ptr<const Factor> extend_factor(std::shared_ptr<const Factor> base, Vector<std::int32_t> unknown_of,
+std::shared_ptr<const Factor> extend_factor(std::shared_ptr<const Factor> base, Span<const std::int32_t> unknown_of,
                                             std::int32_t count, double scale, Memory& memory);
 
 }  // namespace hf_inner

@@ -184,6 +184,9 @@ std::uint32_t Mesh::given_of_triangle(Index t) const noexcept {
     const auto next = std::upper_bound(faces.triangle_start.begin(), faces.triangle_start.end(), t);
     return static_cast<std::uint32_t>(faces.given[static_cast<std::size_t>(next - faces.triangle_start.begin()) - 1]);
   }
+  const auto found = std::lower_bound(refilled.begin(), refilled.end(), t,
+                                      [](const Refilled& one, Index triangle) { return one.triangle < triangle; });
+  if (found != refilled.end() && found->triangle == t) return static_cast<std::uint32_t>(found->given);
   std::size_t given = at(t);  // triangles left out only move it up
   while (triangle_of_given[given] != t) ++given;
   return static_cast<std::uint32_t>(given);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 
 #include "base/jobs.h"
 #include "base/memory.h"
@@ -80,6 +81,7 @@ struct Mesh {
         triangle_of_given(memory),
         doubled(memory),
         turned(memory),
+        refilled(memory),
         faces(memory),
         component(memory),
         isolated(memory),
@@ -136,8 +138,15 @@ struct Mesh {
   // The given vertices whose faces all run against the usable ones, ascending: the copies on the second side of a
   // two-sided sheet. Their normals are the opposite ones.
   SharedVector<std::int32_t> turned;
+  // Usable triangles that a patch gave another number (mesh_patch.h), ascending.
+  struct Refilled {
+    std::int32_t triangle, given;
+  };
+  SharedVector<Refilled> refilled;
   // Empty if the caller gave triangles.
   Faces faces;
+  // Meshes of one family with the same one number the vertices alike that they share (mesh_patch.h).
+  std::shared_ptr<const char> numbering;
   // By inner vertex: the number of its component.
   SharedVector<std::int32_t> component;
   struct Isolated {

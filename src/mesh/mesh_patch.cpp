@@ -38,7 +38,9 @@ class MeshPatcher {
         cut_corners_(&memory),
         copies_(&memory),
         copied_(&memory),
-        doubled_(&memory) {}
+        doubled_(&memory),
+        slots_(&memory),
+        moved_(&memory) {}
 
   PatchedMesh make() {
     list_doubled();
@@ -47,9 +49,9 @@ class MeshPatcher {
     read_cuts();
     find_around();
     number_vertices();
+    refuse_doubled();
     put_vertices();
     put_triangles();
-    refuse_doubled();
     find_components();
     count();
     return std::move(out_);
@@ -57,6 +59,7 @@ class MeshPatcher {
 
  private:
   static constexpr std::uint8_t is_cut = 2;  // in gone_; a removed triangle has 1
+  static constexpr std::uint8_t held = 2;    // in touched_: a triangle holds it
   static constexpr Index first_copy = -2;    // corners of cut triangles: -2 - i for the i-th copy
 
   void list_doubled() {
@@ -154,42 +157,63 @@ class MeshPatcher {
     }
   }
 
-  // The triangles that stay and have a touched corner.
+  // The triangles that stay and have a touched corner, and the vertices that go: touched ones that no triangle holds.
   void find_around() {
     const Index* v = before_.corners.data();
     for (Index t = 0; t < before_.triangle_count(); ++t, v += 3) {
       if ((touched_[at(v[0])] | touched_[at(v[1])] | touched_[at(v[2])]) != 0 && !gone_[at(t)]) around_.push_back(t);
     }
+    Vector<Index> corners(&memory_);
+    for (const Index t : around_) corners.insert(corners.end(), before_.triangle(t), before_.triangle(t) + 3);
+    for (const Vector<Index>* list : {&corners, &added_, &cut_corners_}) {
+      for (const Index u : *list)
+        if (u >= 0 && touched_[at(u)] != 0) touched_[at(u)] = held;
+    }
+    for (std::size_t u = 0; u < touched_.size(); ++u)
+      if (touched_[u] == 1) out_.went.push_back(static_cast<Index>(u));
   }
 
+  // New vertices take the numbers of those that went. If fewer come than go, all get new numbers.
   void number_vertices() {
-    Vector<std::uint8_t> held(before_.positions.size(), 0, &memory_);
-    for (const Index t : around_) {
-      for (int k = 0; k < 3; ++k) held[at(before_.triangle(t)[k])] = 1;
+    const Index count = before_.vertex_count();
+    const std::size_t coming = given_.size() + copies_.size(), going = out_.went.size();
+    for (std::size_t i = 0; i < coming; ++i)
+      slots_.push_back(i < going ? out_.went[i] : count + static_cast<Index>(i - going));
+    if (coming < going) {
+      out_.number.resize(at(count));
+      Index next = 0;
+      auto went = out_.went.begin();
+      for (Index v = 0; v < count; ++v) {
+        const bool goes = went != out_.went.end() && *went == v;
+        if (goes) ++went;
+        out_.number[at(v)] = goes ? Mesh::none : next++;
+      }
+      for (std::size_t i = 0; i < coming; ++i) slots_[i] = next++;
     }
-    for (const Vector<Index>* corners : {&added_, &cut_corners_}) {
-      for (const Index v : *corners)
-        if (v >= 0) held[at(v)] = 1;
-    }
-    out_.number.resize(before_.positions.size());
-    Index next = 0;
-    for (std::size_t v = 0; v < out_.number.size(); ++v) out_.number[v] = touched_[v] && !held[v] ? Mesh::none : next++;
-    first_new_ = next;
-    for (std::size_t v = 0; v < out_.number.size(); ++v)
-      if (touched_[v] && held[v]) out_.touched.push_back(out_.number[v]);
-    const Index copy = first_new_ + static_cast<Index>(given_.size());
-    for (Index v = first_new_; v < copy + static_cast<Index>(copies_.size()); ++v) out_.touched.push_back(v);
-    for (Index& v : added_) v = v >= 0 ? out_.number[at(v)] : first_new_ + (-2 - v);
-    for (Index& v : cut_corners_) v = v >= 0 ? out_.number[at(v)] : copy + (first_copy - v);
+    for (std::size_t u = 0; u < touched_.size(); ++u)
+      if (touched_[u] == held) out_.touched.push_back(number_of(static_cast<Index>(u)));
+    out_.touched.insert(out_.touched.end(), slots_.begin(), slots_.end());
+    std::sort(out_.touched.begin(), out_.touched.end());
+    for (Index& v : added_) v = v >= 0 ? number_of(v) : slots_[at(-2 - v)];
+    for (Index& v : cut_corners_) v = v >= 0 ? number_of(v) : slots_[given_.size() + at(first_copy - v)];
   }
+  // The number of a vertex that stays.
+  Index number_of(Index v) const noexcept { return out_.number.empty() ? v : out_.number[at(v)]; }
 
   void put_vertices() {
     Mesh& mesh = out_.mesh;
     mesh.report = before_.report;
     mesh.centre = before_.centre;
     mesh.scale = before_.scale;
-    const std::size_t first = at(first_new_) + given_.size(), count = first + copies_.size(),
-                      old = before_.report.vertex_count;
+    mesh.numbering = out_.number.empty() ? before_.numbering : make_shared_in<char>(memory_, '\0');
+    const std::size_t coming = slots_.size(), going = out_.went.size();
+    const std::size_t count = before_.positions.size() - going + coming;
+    if (out_.number.empty()) {
+      mesh.positions.reserve(count);
+      mesh.positions.assign(before_.positions.begin(), before_.positions.end());
+      mesh.given_of_inner.reserve(count);
+      mesh.given_of_inner.assign(before_.given_of_inner.begin(), before_.given_of_inner.end());
+    }
     mesh.positions.resize(count);
     mesh.given_of_inner.resize(count);
     for (std::size_t v = 0; v < out_.number.size(); ++v) {
@@ -198,78 +222,128 @@ class MeshPatcher {
       mesh.positions[at(to)] = before_.positions[v];
       mesh.given_of_inner[at(to)] = before_.given_of_inner[v];
     }
+    const std::size_t old = before_.report.vertex_count;
+    mesh.inner_of_given.reserve(old + patch_.positions.size() + copies_.size());
+    mesh.inner_of_given.assign(before_.inner_of_given.begin(), before_.inner_of_given.end());
     mesh.inner_of_given.resize(old + patch_.positions.size() + copies_.size());
-    Vector<Mesh::Isolated> isolated(&memory_);
-    auto known = before_.isolated.begin();
-    for (std::size_t g = 0; g < old; ++g) {
-      const Index v = before_.inner_of_given[g];
-      Index& to = mesh.inner_of_given[g];
-      to = v == Mesh::none ? Mesh::none : out_.number[at(v)];
-      if (v == Mesh::none)
-        isolated.push_back(*known++);
-      else if (to == Mesh::none)
-        isolated.push_back({static_cast<Index>(g), before_.to_given(before_.positions[at(v)])});
-    }
-    for (std::size_t i = 0; i < patch_.positions.size(); ++i) {
-      mesh.inner_of_given[old + i] = Mesh::none;
-      isolated.push_back({static_cast<Index>(old + i), patch_.positions[i]});
-    }
+    put_isolated();
     for (std::size_t i = 0; i < copies_.size(); ++i) {
-      mesh.positions[first + i] = before_.positions[at(copied_[i])];
-      mesh.given_of_inner[first + i] = copies_[i];
-      mesh.inner_of_given[at(copies_[i])] = static_cast<Index>(first + i);
-    }
-    // vertices that a new triangle takes are isolated no more
-    auto taken = given_.begin();
-    for (const Mesh::Isolated& one : isolated) {
-      if (taken == given_.end() || *taken != one.given) {
-        mesh.isolated.push_back(one);
-        continue;
-      }
-      const Index v = first_new_ + static_cast<Index>(taken - given_.begin());
-      mesh.positions[at(v)] = mesh.to_inner(one.position);
-      mesh.given_of_inner[at(v)] = one.given;
-      mesh.inner_of_given[at(one.given)] = v;
-      ++taken;
+      const Index v = slots_[given_.size() + i];
+      mesh.positions[at(v)] = before_.positions[at(copied_[i])];
+      mesh.given_of_inner[at(v)] = copies_[i];
+      mesh.inner_of_given[at(copies_[i])] = v;
     }
     for (const Index g : before_.turned)
       if (mesh.inner_of_given[at(g)] != Mesh::none) mesh.turned.push_back(g);
   }
 
+  // Vertices that went are isolated; those that a new triangle takes are isolated no more.
+  void put_isolated() {
+    Mesh& mesh = out_.mesh;
+    const std::size_t old = before_.report.vertex_count;
+    Vector<Mesh::Isolated> isolated(&memory_);
+    auto known = before_.isolated.begin();
+    for (std::size_t g = 0; (!out_.went.empty() || !out_.number.empty()) && g < old; ++g) {
+      Index& v = mesh.inner_of_given[g];
+      if (v == Mesh::none) {
+        isolated.push_back(*known++);
+      } else if (touched_[at(v)] == 1) {
+        isolated.push_back({static_cast<Index>(g), before_.to_given(before_.positions[at(v)])});
+        v = Mesh::none;
+      } else {
+        v = number_of(v);
+      }
+    }
+    isolated.insert(isolated.end(), known, before_.isolated.end());
+    for (std::size_t i = 0; i < patch_.positions.size(); ++i) {
+      mesh.inner_of_given[old + i] = Mesh::none;
+      isolated.push_back({static_cast<Index>(old + i), patch_.positions[i]});
+    }
+    std::size_t taken = 0;
+    for (const Mesh::Isolated& one : isolated) {
+      if (taken == given_.size() || given_[taken] != one.given) {
+        mesh.isolated.push_back(one);
+        continue;
+      }
+      const Index v = slots_[taken++];
+      mesh.positions[at(v)] = mesh.to_inner(one.position);
+      mesh.given_of_inner[at(v)] = one.given;
+      mesh.inner_of_given[at(one.given)] = v;
+    }
+  }
+
+  // New triangles take the numbers of those that went; the last ones fill what is left.
   void put_triangles() {
     Mesh& mesh = out_.mesh;
-    const Index count = before_.triangle_count();
-    Vector<Index> number(at(count), &memory_);
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < at(count); ++t) {
-      number[t] = gone_[t] == 1 ? Mesh::none : static_cast<Index>(kept);
-      kept += gone_[t] != 1;
-    }
-    if (kept == 0 && added_.empty())
+    const std::size_t old = before_.corners.size() / 3, given = before_.triangle_of_given.size();
+    const std::size_t coming = added_.size() / 3;
+    Vector<Index> holes(&memory_);
+    for (std::size_t t = 0; t < old; ++t)
+      if (gone_[t] == 1) holes.push_back(static_cast<Index>(t));
+    if (old + coming == holes.size())
       fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the edit removes every triangle; nothing is left of the surface");
-    mesh.corners.resize(3 * kept + added_.size());
-    Index* out = mesh.corners.data();
-    const Index* corner = before_.corners.data();
-    const Index* cut = cut_corners_.data();
-    for (std::size_t t = 0; t < at(count); ++t, corner += 3) {
-      if (gone_[t] == 1) continue;
-      for (int k = 0; k < 3; ++k) *out++ = gone_[t] == is_cut ? *cut++ : out_.number[at(corner[k])];
+    const std::size_t count = old + coming - holes.size();
+    mesh.corners.reserve(3 * std::max(old, count));
+    mesh.corners.assign(before_.corners.begin(), before_.corners.end());
+    mesh.triangle_of_given.reserve(given + coming);
+    mesh.triangle_of_given.assign(before_.triangle_of_given.begin(), before_.triangle_of_given.end());
+    mesh.corners.resize(3 * std::max(old, count));
+    mesh.triangle_of_given.resize(given + coming);
+    for (std::size_t c = 0; !out_.number.empty() && c < 3 * old; ++c) mesh.corners[c] = number_of(mesh.corners[c]);
+    for (const std::uint32_t g : patch_.removed) mesh.triangle_of_given[g] = Mesh::none;
+    Vector<Mesh::Refilled> refilled(&memory_);
+    const auto put = [&](std::size_t t, const Index* corners, std::size_t g) {
+      std::copy_n(corners, 3, mesh.corners.data() + 3 * t);
+      mesh.triangle_of_given[g] = static_cast<Index>(t);
+      refilled.push_back({static_cast<Index>(t), static_cast<Index>(g)});
+    };
+    for (std::size_t i = 0; i < cut_.size(); ++i)
+      std::copy_n(&cut_corners_[3 * i], 3, mesh.corners.data() + 3 * at(cut_[i]));
+    for (std::size_t i = 0; i < coming; ++i)
+      put(i < holes.size() ? at(holes[i]) : old + i - holes.size(), &added_[3 * i], given + i);
+    std::size_t last = old, left = coming;
+    while (left < holes.size() && at(holes[left]) < count) {
+      while (gone_[--last] == 1) continue;
+      Index corners[3];
+      std::copy_n(mesh.corners.data() + 3 * last, 3, corners);
+      put(at(holes[left++]), corners, before_.given_of_triangle(static_cast<Index>(last)));
+      moved_.push_back({static_cast<Index>(last), holes[left - 1]});
     }
-    std::copy(added_.begin(), added_.end(), out);
-    const std::size_t given = before_.triangle_of_given.size();
-    mesh.triangle_of_given.resize(given + added_.size() / 3);
-    for (std::size_t g = 0; g < given; ++g) {
-      const Index t = before_.triangle_of_given[g];
-      mesh.triangle_of_given[g] = t == Mesh::none ? t : number[at(t)];
-    }
-    for (std::size_t i = 0; i < added_.size() / 3; ++i)
-      mesh.triangle_of_given[given + i] = static_cast<Index>(kept + i);
+    mesh.corners.resize(3 * count);
+    put_refilled(std::move(refilled));
     mesh.cuts.assign(before_.cuts.begin(), before_.cuts.end());
     mesh.cuts.append(patch_.cuts.begin(), patch_.cuts.end());
     for (Mesh::Doubled one : before_.doubled) {
-      for (Index& v : one.corner) v = out_.number[at(v)];
+      for (Index& v : one.corner) v = number_of(v);
       mesh.doubled.push_back(one);
     }
+    list_around();
+  }
+
+  // Later numbers replace earlier ones, and triangles that went are listed no more.
+  void put_refilled(Vector<Mesh::Refilled>&& fresh) {
+    Mesh& mesh = out_.mesh;
+    std::sort(fresh.begin(), fresh.end(), [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
+    auto next = fresh.begin();
+    for (const Mesh::Refilled& one : before_.refilled) {
+      for (; next != fresh.end() && next->triangle < one.triangle; ++next) mesh.refilled.push_back(*next);
+      const bool stays = mesh.triangle_of_given[at(one.given)] == one.triangle;
+      if (stays) mesh.refilled.push_back(one);
+    }
+    for (; next != fresh.end(); ++next) mesh.refilled.push_back(*next);
+  }
+
+  void list_around() {
+    const Mesh& mesh = out_.mesh;
+    std::sort(moved_.begin(), moved_.end(), [](const Moved& a, const Moved& b) { return a.from < b.from; });
+    for (const Index t : around_) {
+      const auto moved = std::lower_bound(moved_.begin(), moved_.end(), t,
+                                          [](const Moved& one, Index from) { return one.from < from; });
+      out_.around.push_back(moved != moved_.end() && moved->from == t ? moved->to : t);
+    }
+    out_.around.insert(out_.around.end(), cut_.begin(), cut_.end());
+    const std::size_t given = before_.triangle_of_given.size();
+    for (std::size_t i = 0; i < added_.size() / 3; ++i) out_.around.push_back(mesh.triangle_of_given[given + i]);
   }
 
   // Two triangles with the same corners would count twice.
@@ -279,7 +353,7 @@ class MeshPatcher {
       keys.push_back(Corners(&added_[3 * i], static_cast<std::uint32_t>(i)));
     for (const Index t : around_) {
       Index v[3];
-      for (int k = 0; k < 3; ++k) v[k] = out_.number[at(before_.triangle(t)[k])];
+      for (int k = 0; k < 3; ++k) v[k] = number_of(before_.triangle(t)[k]);
       keys.push_back(Corners(v));
     }
     std::sort(keys.begin(), keys.end());
@@ -294,60 +368,50 @@ class MeshPatcher {
   // Components stay if the triangles around the patch join what they joined before.
   void find_components() {
     Mesh& mesh = out_.mesh;
-    const std::size_t count = mesh.positions.size();
-    mesh.component.resize(count);
-    Vector<Index> local(count, Mesh::none, &memory_), old(&memory_);
-    Index next = 0;
-    const auto number = [&](Index v, Index component) {
-      if (local[at(v)] == Mesh::none) {
-        local[at(v)] = next++;
-        old.push_back(component);
-      }
-      return local[at(v)];
+    Vector<Index> near(&memory_);  // the vertices of these triangles
+    for (const Index t : out_.around) near.insert(near.end(), mesh.triangle(t), mesh.triangle(t) + 3);
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    const auto local = [&](Index v) {
+      return static_cast<Index>(std::lower_bound(near.begin(), near.end(), v) - near.begin());
     };
-    Vector<Index> sides(&memory_);  // pairs to unite
-    for (const Index t : around_) {
-      Index v[3];
-      for (int k = 0; k < 3; ++k) {
-        const Index u = before_.triangle(t)[k];
-        v[k] = number(out_.number[at(u)], before_.component[at(u)]);
-      }
-      sides.insert(sides.end(), {v[0], v[1], v[1], v[2]});
+    UnionFind sets(near.size(), memory_);
+    for (const Index t : out_.around) {
+      const Index* const v = mesh.triangle(t);
+      sets.unite(local(v[0]), local(v[1]));
+      sets.unite(local(v[1]), local(v[2]));
     }
-    for (const Vector<Index>* corners : {&added_, &cut_corners_}) {
-      for (std::size_t i = 0; i < corners->size(); i += 3) {
-        Index v[3];
-        for (std::size_t k = 0; k < 3; ++k) v[k] = number((*corners)[i + k], Mesh::none);
-        sides.insert(sides.end(), {v[0], v[1], v[1], v[2]});
-      }
+    Vector<Index> old(near.size(), Mesh::none, &memory_);  // the component before; none for a new vertex
+    Vector<Index> slots(slots_.begin(), slots_.end(), &memory_);
+    std::sort(slots.begin(), slots.end());
+    Vector<Index> before(&memory_);  // by number now, where numbers changed
+    for (std::size_t v = 0; v < out_.number.size(); ++v)
+      if (out_.number[v] != Mesh::none) before.push_back(static_cast<Index>(v));
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      if (std::binary_search(slots.begin(), slots.end(), near[i])) continue;
+      old[i] = before_.component[at(out_.number.empty() ? near[i] : before[at(near[i])])];
     }
-    UnionFind sets(old.size(), memory_);
-    for (std::size_t i = 0; i < sides.size(); i += 2) sets.unite(sides[i], sides[i + 1]);
-    for (std::size_t v = 0; v < out_.number.size(); ++v) {  // corners of new triangles that stand alone so far
-      const Index u = out_.number[v] == Mesh::none ? Mesh::none : local[at(out_.number[v])];
-      if (u != Mesh::none) old[at(u)] = before_.component[v];
-    }
-    const std::size_t components = at(before_.component_count());
-    Vector<Index> set_of(components, Mesh::none, &memory_), of_set(old.size(), Mesh::none, &memory_);
+    Vector<Index> set_of(at(before_.component_count()), Mesh::none, &memory_),
+        of_set(near.size(), Mesh::none, &memory_);
     bool same = true;
-    for (std::size_t v = 0; v < old.size(); ++v) {
-      const Index set = sets.find(static_cast<Index>(v));
+    for (std::size_t v = 0; v < near.size(); ++v) {
       if (old[v] == Mesh::none) continue;
+      const Index set = sets.find(static_cast<Index>(v));
       Index &there = set_of[at(old[v])], &here = of_set[at(set)];
       if (there == Mesh::none) there = set;
       if (here == Mesh::none) here = old[v];
       same = same && there == set && here == old[v];
     }
-    for (std::size_t v = 0; v < old.size(); ++v)
+    for (std::size_t v = 0; v < near.size(); ++v)
       same = same && of_set[at(sets.find(static_cast<Index>(v)))] != Mesh::none;
-    for (std::size_t v = 0; v < out_.number.size(); ++v) {  // all of a component went
-      if (out_.number[v] == Mesh::none) same = same && set_of[at(before_.component[v])] != Mesh::none;
-    }
+    for (const Index v : out_.went) same = same && set_of[at(before_.component[at(v)])] != Mesh::none;
     out_.same_components = same;
     if (!same) return count_components();
-    for (std::size_t v = 0; v < out_.number.size(); ++v)
-      if (out_.number[v] != Mesh::none) mesh.component[at(out_.number[v])] = before_.component[v];
-    for (std::size_t v = at(first_new_); v < count; ++v) mesh.component[v] = of_set[at(sets.find(local[v]))];
+    mesh.component.reserve(mesh.positions.size());
+    mesh.component.assign(before_.component.begin(), before_.component.end());
+    for (std::size_t v = 0; v < before.size(); ++v) mesh.component[v] = before_.component[at(before[v])];
+    mesh.component.resize(mesh.positions.size());
+    for (const Index v : slots_) mesh.component[at(v)] = of_set[at(sets.find(local(v)))];
   }
 
   // Components are numbered by the first of the caller's vertices in them.
@@ -382,13 +446,17 @@ class MeshPatcher {
   const MeshPatch& patch_;
   Memory& memory_;
   PatchedMesh out_;
-  Vector<std::uint8_t> gone_, touched_;  // by triangle and by vertex before
+  Vector<std::uint8_t> gone_, touched_;  // by triangle and by vertex before; touched_ is 1 for one that goes
   Vector<Index> around_, added_;         // triangles before; corners of the new ones
   Vector<Index> given_;                  // vertices of the caller that become inner ones, ascending
   Vector<Index> cut_, cut_corners_;      // triangles before that are cut, ascending; their corners after
   Vector<Index> copies_, copied_;        // the copies by the caller's number, ascending; inner vertices before
   Vector<Corners> doubled_;              // of the triangles that are set aside
-  Index first_new_ = 0;
+  Vector<Index> slots_;                  // the inner numbers of new vertices: of given_, then of the copies
+  struct Moved {
+    Index from, to;
+  };
+  Vector<Moved> moved_;  // usable triangles with another number
 };
 
 }  // namespace

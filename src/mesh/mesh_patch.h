@@ -2,7 +2,9 @@
 //
 // Vertices and triangles of the caller keep their numbers. New ones follow. A removed triangle stays in the count and
 // is no usable one any more. A vertex whose last triangle left is isolated. New vertices are welded to no other: a cut
-// needs two vertices at one place. The frame (centre and scale) stays, so the numbers of the rest keep their bits.
+// needs two vertices at one place. Inside, new vertices and triangles take the numbers of those that went, and the
+// others keep theirs, unless more vertices go than come. The frame (centre and scale) stays, so the numbers of the rest
+// keep their bits.
 #pragma once
 #include "mesh/mesh.h"
 
@@ -16,10 +18,14 @@ struct MeshPatch {
 };
 
 struct PatchedMesh {
-  explicit PatchedMesh(Memory& memory) : mesh(memory), number(&memory), touched(&memory) {}
+  explicit PatchedMesh(Memory& memory)
+      : mesh(memory), number(&memory), touched(&memory), around(&memory), went(&memory) {}
   Mesh mesh;
-  Vector<Index> number;   // by inner vertex of the mesh before: its number now, or none
+  // By inner vertex of the mesh before: its number now, or none. Empty: vertices that stay keep their numbers.
+  Vector<Index> number;
   Vector<Index> touched;  // inner vertices with other triangles than before, ascending
+  Vector<Index> around;   // the usable triangles at these vertices
+  Vector<Index> went;     // inner vertices before that went, ascending
   bool same_components = false;
 };
 

@@ -141,6 +141,111 @@ void run_links_on(const Mesh& mesh, const Run& run, Report* report, nlohmann::js
   report->measure("link_memory", mesh.name, run.threads, share);
 }
 
+// A patch of 600 triangles that 900 replace: a fourth of them get a vertex in the middle.
+struct Patch {
+  std::vector<uint32_t> removed, added;
+  std::vector<double> positions;
+};
+Patch patch_at(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& neighbours, uint32_t centre) {
+  constexpr std::size_t size = 600;
+  Patch out;
+  std::vector<std::vector<uint32_t>> of_vertex(mesh.vertex_count());
+  const std::vector<uint32_t> near = patch(neighbours, centre, 2 * size);
+  std::vector<bool> is_near(mesh.vertex_count(), false), taken(mesh.triangles.size() / 3, false);
+  for (const uint32_t v : near) is_near[v] = true;
+  for (uint32_t c = 0; c < mesh.triangles.size(); ++c)
+    if (is_near[mesh.triangles[c]]) of_vertex[mesh.triangles[c]].push_back(c / 3);
+  for (const uint32_t v : near) {
+    for (const uint32_t t : of_vertex[v]) {
+      if (taken[t] || out.removed.size() == size) continue;
+      taken[t] = true;
+      out.removed.push_back(t);
+    }
+  }
+  for (std::size_t i = 0; i < out.removed.size(); ++i) {
+    const uint32_t* const v = &mesh.triangles[3 * std::size_t{out.removed[i]}];
+    if (i % 4 != 0) {
+      out.added.insert(out.added.end(), v, v + 3);
+      continue;
+    }
+    const uint32_t middle = mesh.vertex_count() + static_cast<uint32_t>(out.positions.size() / 3);
+    for (std::size_t x = 0; x < 3; ++x) {
+      double sum = 0;
+      for (int k = 0; k < 3; ++k) sum += static_cast<double>(mesh.positions[3 * std::size_t{v[k]} + x]);
+      out.positions.push_back(sum / 3);
+    }
+    for (int k = 0; k < 3; ++k) out.added.insert(out.added.end(), {v[k], v[(k + 1) % 3], middle});
+  }
+  return out;
+}
+
+// The two ends of every edge on a shortest way of 50 edges from a vertex.
+std::vector<uint32_t> cut_at(const std::vector<std::vector<uint32_t>>& neighbours, uint32_t from) {
+  constexpr int length = 50;
+  std::vector<uint32_t> before(neighbours.size(), HF_NO_INDEX), ring(1, from), edges;
+  before[from] = from;
+  for (int step = 0; step < length; ++step) {
+    std::vector<uint32_t> next;
+    for (const uint32_t v : ring) {
+      for (const uint32_t u : neighbours[v]) {
+        if (before[u] != HF_NO_INDEX) continue;
+        before[u] = v;
+        next.push_back(u);
+      }
+    }
+    ring = next;
+  }
+  for (uint32_t v = ring.front(); v != from; v = before[v]) edges.insert(edges.end(), {v, before[v]});
+  return edges;
+}
+
+void run_patches_on(const Mesh& mesh, const Run& run, const Solver& solver, double fresh_ms, Report* report,
+                    nlohmann::json& row) {
+  const auto neighbours = neighbours_of(mesh);
+  hf_solver moved = nullptr;
+  check(hf_solver_clone(solver.handle(), &moved));
+  for (const bool cuts : {false, true}) {
+    std::vector<double> edits, moves, fields, wholes, bytes;
+    for (uint32_t r = 0; r < 3 * run.repetitions; ++r) {
+      const uint32_t centre = scattered_vertices(mesh.vertex_count(), 1, 100 + r)[0];
+      const Patch change = cuts ? Patch() : patch_at(mesh, neighbours, centre);
+      const std::vector<uint32_t> edges = cuts ? cut_at(neighbours, centre) : std::vector<uint32_t>();
+      hf_patch_desc patch = HF_INIT(hf_patch_desc);
+      patch.removed_triangle_count = static_cast<uint32_t>(change.removed.size());
+      patch.new_vertex_count = static_cast<uint32_t>(change.positions.size() / 3);
+      patch.new_triangle_count = static_cast<uint32_t>(change.added.size() / 3);
+      patch.removed_triangles = change.removed.data();
+      patch.new_positions = change.positions.data();
+      patch.new_triangles = change.added.data();
+      patch.cut_edge_count = static_cast<uint32_t>(edges.size() / 2);
+      patch.cut_edges = edges.data();
+      hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
+      desc.patch = &patch;
+      hf_surface made = nullptr;
+      std::vector<float> field(mesh.vertex_count() + 1000);
+      const double before = solver.surface_statistics().memory_bytes;
+      edits.push_back(time_ms([&] { check(hf_surface_edit(solver.surface(), &desc, &made)); }));
+      bytes.push_back(solver.surface_statistics().memory_bytes - before);
+      moves.push_back(time_ms([&] { check(hf_solver_move_to(moved, made)); }));
+      fields.push_back(time_ms([&] { check(hf_solve(moved, field.data(), 0, nullptr)); }));
+      wholes.push_back(edits.back() + moves.back() + fields.back());
+      hf_surface_destroy(made);
+    }
+    const double share = median(bytes) / solver.surface_statistics().memory_bytes;
+    std::printf("%-16s %s: edit %7.2f ms, sites %6.2f, field %6.2f, in all %7.2f; fresh = %5.1fx; memory %4.1f %%\n",
+                mesh.name.c_str(), cuts ? "cut of 50 edges " : "600 by 900      ", median(edits), median(moves),
+                median(fields), median(wholes), fresh_ms / median(wholes), 100 * share);
+    std::fflush(stdout);
+    const std::string key = cuts ? "cut" : "patch";
+    row[key + "_ms"] = median(wholes);
+    if (!report) continue;
+    report->measure(key, mesh.name, run.threads, median(wholes));
+    report->measure(key + "_fresh", mesh.name, run.threads, fresh_ms / median(wholes));
+    report->measure(key + "_memory", mesh.name, run.threads, share);
+  }
+  hf_solver_destroy(moved);
+}
+
 nlohmann::json run_edits_on(const Mesh& mesh, const Run& run, Report* report) {
   const auto neighbours = neighbours_of(mesh);
   const Solver solver(mesh, own_defaults(run.threads));
@@ -190,6 +295,7 @@ nlohmann::json run_edits_on(const Mesh& mesh, const Run& run, Report* report) {
     report->measure("edit_100_fresh", mesh.name, run.threads, median(fresh) / median(wholes));
     report->measure("edit_100_memory", mesh.name, run.threads, share);
   }
+  run_patches_on(mesh, run, solver, median(fresh), report, row);
   run_links_on(mesh, run, report, row);
   return row;
 }

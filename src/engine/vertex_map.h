@@ -1,0 +1,46 @@
+// Which inner vertices of two meshes of one family (Geometry::is_kin) are the same.
+#pragma once
+#include <algorithm>
+
+#include "base/index.h"
+#include "mesh/mesh.h"
+
+namespace hf_inner {
+
+class VertexMap {
+ public:
+  VertexMap(const Mesh& before, const Mesh& after, Memory& memory)
+      : before_(before.given_of_inner),
+        after_(after.given_of_inner),
+        keeps_numbers_(before.numbering == after.numbering),
+        to_(&memory),
+        from_(&memory) {
+    if (keeps_numbers_) return;
+    to_.assign(before_.size(), Mesh::none);
+    from_.assign(after_.size(), Mesh::none);
+    Index last = Mesh::none;  // a vertex that went and came again counts as a new one, so that numbers ascend
+    for (std::size_t v = 0; v < from_.size(); ++v) {
+      const std::size_t given = at(after_[v]);
+      const Index u = given < before.inner_of_given.size() ? before.inner_of_given[given] : Mesh::none;
+      if (u == Mesh::none || u <= last) continue;
+      last = from_[v] = u;
+      to_[at(u)] = static_cast<Index>(v);
+    }
+  }
+
+  Index before_count() const noexcept { return static_cast<Index>(before_.size()); }
+  Index after_count() const noexcept { return static_cast<Index>(after_.size()); }
+  // The number after of a vertex before, or none, and the other way round. Numbers ascend where they are not none.
+  Index to(Index u) const noexcept { return keeps_numbers_ ? (is_kept(u) ? u : Mesh::none) : to_[at(u)]; }
+  Index from(Index v) const noexcept { return keeps_numbers_ ? (is_kept(v) ? v : Mesh::none) : from_[at(v)]; }
+
+ private:
+  bool is_kept(Index v) const noexcept {
+    return at(v) < std::min(before_.size(), after_.size()) && before_[at(v)] == after_[at(v)];
+  }
+  SharedVector<Index> before_, after_;  // the vertex of the caller, by inner vertex
+  bool keeps_numbers_;
+  Vector<Index> to_, from_;
+};
+
+}  // namespace hf_inner
