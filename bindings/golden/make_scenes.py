@@ -332,6 +332,7 @@ def scenes(meshes):
     faces(scene, solver, solve)
     links(scene, surface, solver)
     edits_of_surfaces(scene, meshes["pair"], surface, solver)
+    patches_of_surfaces(scene, meshes["pair"], surface, solver)
     skin_weights(scene, surface)
     carried_weights(scene, meshes["strip"], surface)
     return found
@@ -461,6 +462,44 @@ def edits_of_surfaces(scene, mesh, surface, solver):
           edit("held", "e", links=flat[:7] + [-1.0], error="HF_ERROR_INVALID_ARGUMENT", index=0),
           edit("held", "e", error="HF_ERROR_EMPTY"),
           surface("strip", "other"), move("other", error="HF_ERROR_CONFLICT"), move("held"), look(rows, ones))
+
+
+def patches_of_surfaces(scene, mesh, surface, solver):
+    """The plates of the scene of links: a triangle becomes three, and a slit opens."""
+    points, triangles = [np.array(mesh[key]).reshape(-1, 3) for key in ("positions", "triangles")]
+    sites, values = [0, 20, 49], [0.0, 1.0, 3.0]
+    edit = lambda on, name, **more: {"do": "edit_surface", "on": on, "as": name, **more}
+    move = lambda to: {"do": "move_to", "on": "s", "to": to}
+    look = lambda points, triangles: {"do": "solve", "on": "s", "expect": expect(
+        field({"positions": points.ravel(), "triangles": triangles.ravel()}, sites, values))}
+    report = lambda name, **figures: {"do": "report", "on": name, "expect": figures}
+    gone, v = 11, triangles[11]
+    fine = np.vstack([points, points[v].mean(0)])
+    fan = [[v[0], v[1], 50], [v[1], v[2], 50], [v[2], v[0], 50]]
+    three = np.vstack([np.delete(triangles, gone, 0), fan])
+    row, edges = [10, 11], [10, 11, 11, 12]  # of the first plate, from its border
+    below = [t for t, corners in enumerate(triangles) if corners.max() < 25 and points[corners].mean(0)[1] > points[10][1]]
+    cut = triangles.copy()
+    corners = []
+    for number, vertex in enumerate(row):
+        for t in below:
+            for k in range(3):
+                if triangles[t][k] == vertex:
+                    cut[t][k] = 50 + number
+                    corners.append([t, k, 50 + number, vertex])
+    parted = np.vstack([points, points[row]])
+    scene("patched_surfaces", "A triangle becomes three, and a slit opens, while sites stay (dense oracle).",
+          surface("pair", operator_kind=hf.constants.HF_OPERATOR_COTANGENT), solver(),
+          {"do": "add_sites", "on": "s", "vertices": sites, "values": values}, look(points, triangles),
+          edit("m", "fine", removed_triangles=[gone], new_positions=fine[50].tolist(),
+               new_triangles=[int(x) for t in fan for x in t]),
+          report("fine", vertex_count=51, component_count=2), move("fine"), look(fine, three),
+          edit("m", "cut", cut_edges=edges), report("cut", vertex_count=52, component_count=2),
+          {"do": "cuts", "on": "cut", "expect": expect(np.array(corners))}, move("cut"), look(parted, cut),
+          edit("m", "e", removed_triangles=[gone, gone], error="HF_ERROR_CONFLICT", index=1),
+          edit("m", "e", removed_triangles=[4000], error="HF_ERROR_OUT_OF_RANGE", index=0),
+          edit("m", "e", cut_edges=[0, 24], error="HF_ERROR_NOT_FOUND", index=0),
+          edit("m", "e", cut_edges=[6, 7], error="HF_ERROR_EMPTY"), move("m"), look(points, triangles))
 
 
 def skin_weights(scene, surface):

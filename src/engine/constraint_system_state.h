@@ -88,7 +88,7 @@ struct ConstraintState {
 struct KnownPaths {
   std::shared_ptr<const ConstraintState> state;  // null: none
   std::shared_ptr<const Factor> factor;
-  std::shared_ptr<const VertexMap> map;  // from the vertices of that system to those of this one; null: the same
+  std::shared_ptr<const VertexMap> map;  // from the vertices of that system to vertices here; null: the same
 };
 
 }  // namespace hf_inner

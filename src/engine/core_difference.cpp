@@ -88,10 +88,10 @@ class Difference {
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   }
 
-  // The rows that exchanged triangles change, and those of vertices that came and went.
+  // The rows that exchanged triangles change, and the rows of vertices that came and went.
   void list_patch() {
     Vector<Index>& rows = change_.unknown;
-    rows.insert(rows.end(), unknowns_->fresh.begin(), unknowns_->fresh.end());
+    rows.insert(rows.end(), unknowns_->map.fresh().begin(), unknowns_->map.fresh().end());
     for (Index x = to_.size(); x < unknowns_->count(); ++x) rows.push_back(x);
     const auto take = [&](Index x) {
       if (before_of(x) == Mesh::none || after_of(x) == Mesh::none) return;
@@ -179,12 +179,7 @@ class Difference {
 
 }  // namespace
 
-Unknowns::Unknowns(const Core& from, const Core& to)
-    : map(from.mesh, to.mesh, *from.memory), fresh(from.memory.get()), went(from.memory.get()) {
-  for (Index v = 0; v < to.size(); ++v)
-    if (map.from(v) == Mesh::none) fresh.push_back(v);
-  for (Index u = 0; u < from.size(); ++u)
-    if (map.to(u) == Mesh::none) went.push_back(u);
+Unknowns::Unknowns(const Core& from, const Core& to) : map(from.mesh, to.mesh, *from.memory) {
   scale = std::sqrt(from.mean_diagonal.front());
 }
 

@@ -7,8 +7,8 @@
 
 namespace hf_inner {
 
-// The unknowns of a factor that two cores share (extended_factor.h): the vertices of `to`, then those of `from` that
-// went.
+// The unknowns of a factor that two cores share (extended_factor.h): the vertices of `to`, then the vertices of
+// `from` that went.
 struct Unknowns {
   // Whether the two number their vertices alike. Then the unknowns are the vertices.
   static bool are_same(const Core& from, const Core& to) noexcept {
@@ -19,20 +19,21 @@ struct Unknowns {
   Index of_before(Index u) const noexcept {
     const Index v = map.to(u);
     if (v != Mesh::none) return v;
-    return map.after_count() + static_cast<Index>(std::lower_bound(went.begin(), went.end(), u) - went.begin());
+    return map.after_count() +
+           static_cast<Index>(std::lower_bound(map.went().begin(), map.went().end(), u) - map.went().begin());
   }
   // The vertex of `from` that an unknown is, or map.before_count() + j for the j-th new vertex.
   Index vertex_before(Index x) const noexcept {
-    if (x >= map.after_count()) return went[at(x - map.after_count())];
+    if (x >= map.after_count()) return map.went()[at(x - map.after_count())];
     const Index u = map.from(x);
     if (u != Mesh::none) return u;
-    return map.before_count() + static_cast<Index>(std::lower_bound(fresh.begin(), fresh.end(), x) - fresh.begin());
+    return map.before_count() +
+           static_cast<Index>(std::lower_bound(map.fresh().begin(), map.fresh().end(), x) - map.fresh().begin());
   }
-  Index count() const noexcept { return map.after_count() + static_cast<Index>(went.size()); }
+  Index count() const noexcept { return map.after_count() + static_cast<Index>(map.went().size()); }
 
   VertexMap map;
-  Vector<Index> fresh, went;  // the new vertices of `to`, and the vertices of `from` that are not in it; ascending
-  double scale = 1;           // s of extended_factor.h
+  double scale = 1;  // s of extended_factor.h
 };
 
 // unknowns: null where the two number their vertices alike. The rows in which the matrices differ are listed, and which

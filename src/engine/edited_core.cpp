@@ -35,10 +35,14 @@ struct PieceDiagonals {
         count(before.count, plain.memory.get()) {
     const Mesh& old = plain.geometry->unlinked().mesh;
     const auto diagonal_before = [&](Index u) { return std::fabs(plain.laplacian.value[plain.laplacian.diagonal(u)]); };
-    bool same = old.component_count() == mesh.component_count();
-    for (Index v = 0; same && v < mesh.vertex_count(); ++v) {
-      const Index u = patch.map.from(v);
-      same = u == Mesh::none || old.component[at(u)] == mesh.component[at(v)];
+    bool same = patch.map.keeps_numbers() && old.component_count() == mesh.component_count();
+    if (same) {
+      const Index both = std::min(old.vertex_count(), mesh.vertex_count());
+      const Index *const a = old.component.data(), *const b = mesh.component.data();
+      std::size_t others = 0;
+      for (std::size_t v = 0; v < at(both); ++v) others += a[v] != b[v];
+      for (const Index v : patch.map.fresh()) others -= v < both && a[v] != b[v];
+      same = others == 0;
     }
     if (!same) {
       sum_up(mesh, [&](Index v) {
@@ -53,8 +57,7 @@ struct PieceDiagonals {
       sum[c] += std::fabs(patch.diagonal(static_cast<Index>(i))) - (u == Mesh::none ? 0.0 : diagonal_before(u));
       count[c] += u == Mesh::none;
     }
-    for (Index u = 0; u < old.vertex_count(); ++u) {
-      if (patch.map.to(u) != Mesh::none) continue;
+    for (const Index u : patch.map.went()) {
       sum[at(old.component[at(u)])] -= diagonal_before(u);
       count[at(old.component[at(u)])] -= 1;
     }
@@ -176,6 +179,22 @@ bool share_factor(Core& made, std::shared_ptr<const Core> near, std::shared_ptr<
   return true;
 }
 
+// The rows of the unknowns in a factor beside the factor of `from`: a new unknown has a row of its own.
+Vector<Index> rows_of(const Factor& factor, const Unknowns& unknowns, Memory& memory) {
+  const VertexMap& map = unknowns.map;
+  const Span<const Index> position = factor.position();
+  Vector<Index> rows(position.begin(), position.begin() + std::min(map.before_count(), map.after_count()), &memory);
+  rows.resize(at(unknowns.count()));
+  if (!map.keeps_numbers()) {
+    for (Index v = 0; v < map.after_count(); ++v)
+      if (map.from(v) != Mesh::none) rows[at(v)] = position[at(map.from(v))];
+  }
+  for (std::size_t j = 0; j < map.fresh().size(); ++j)
+    rows[at(map.fresh()[j])] = map.before_count() + static_cast<Index>(j);
+  for (std::size_t d = 0; d < map.went().size(); ++d) rows[at(map.after_count()) + d] = position[at(map.went()[d])];
+  return rows;
+}
+
 void factorise_again(Core& made, const Factor& base) {
   try {
     made.factor = base.refactor(grounded(made), {}, *made.memory, *made.jobs);
@@ -260,9 +279,8 @@ std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, SurfaceE
   } else {
     const Unknowns unknowns(*near, *made);
     change = core_difference(*near, *made, &unknowns);
-    Vector<Index> unknown_of(at(unknowns.count()), made->memory.get());
-    for (Index x = 0; x < unknowns.count(); ++x) unknown_of[at(x)] = unknowns.vertex_before(x);
-    base = extend_factor(std::move(base), unknown_of, made->size(), unknowns.scale, *made->memory);
+    base = extend_factor(std::move(base), rows_of(*near->factor, unknowns, *made->memory), made->size(), unknowns.scale,
+                         *made->memory);
   }
   const SiteCost cost(near->factor->statistics());
   const double inside = static_cast<double>(change.inside.size());

@@ -9,7 +9,7 @@ namespace hf_inner {
 
 class EditedRows {
  public:
-  // plain: the operator before all edits. patch, links, stiffness: null for none; links and stiffness are those of the
+  // plain: the operator before all edits. patch, links, stiffness: null for none; links and stiffness belong to the
   // vertices after the patch.
   EditedRows(const SymmetricMatrix& plain, const PatchRows* patch, const LinkChange* links,
              const Vector<double>* stiffness, Memory& memory)

@@ -185,7 +185,8 @@ std::shared_ptr<const Geometry> Geometry::patched(std::shared_ptr<const Geometry
   if (from->plain) from = from->plain;
   Timer timer;
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(from->memory, from->memory, from->jobs);
-  PatchedMesh made = patched_mesh(from->mesh, patch, *shape->memory);
+  const bool has_edges = from->edges_made_.load(std::memory_order_acquire);
+  PatchedMesh made = patched_mesh(from->mesh, has_edges ? &from->edges_.topology : nullptr, patch, *shape->memory);
   shape->operator_kind = from->operator_kind;
   shape->family = from->family;
   shape->is_patched = true;
@@ -196,8 +197,15 @@ std::shared_ptr<const Geometry> Geometry::patched(std::shared_ptr<const Geometry
     if (made.number[v] != Mesh::none) shape->areas[at(made.number[v])] = from->areas[v];
   shape->areas.resize(count);
   sum_areas(made, shape->areas);
+  const bool kept = made.same_components && made.went.empty();
   shape->mesh = std::move(made.mesh);
-  count_given(*shape);
+  if (kept) {
+    shape->given_count.assign(from->given_count.begin(), from->given_count.end());
+    for (const Index g : made.came)
+      ++shape->given_count[at(shape->mesh.component[at(shape->mesh.inner_of_given[at(g)])])];
+  } else {
+    count_given(*shape);
+  }
   shape->weld_ms = from->weld_ms + timer.milliseconds();
   return shape;
 }

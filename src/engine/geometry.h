@@ -61,7 +61,7 @@ struct Geometry {
   // The edges of triangles and links, and the weights of the Laplacian per edge. Thread safety: any thread.
   const Topology& topology() const { return edges().topology; }
   const Vector<double>& weights() const { return edges().weights; }
-  // The report of the mesh; that of a patched one is counted when it is first asked for. Thread safety: any thread.
+  // The report of the mesh; the counts of a patched mesh are made when a caller first asks. Thread safety: any thread.
   const MeshReport& mesh_report() const;
 
   Mesh mesh;

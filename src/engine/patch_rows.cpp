@@ -118,13 +118,7 @@ class Neighbourhood {
   Vector<Index> triangles_near() const {
     const Topology& topology = plain_.topology();
     Vector<Index> out(&memory_);
-    for (const Index v : vertices_) {
-      for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
-        const std::size_t e = at(topology.neighbour_edge[at(i)]);
-        for (Index side = topology.edge_triangle_start[e]; side < topology.edge_triangle_start[e + 1]; ++side)
-          out.push_back(topology.triangle(side));
-      }
-    }
+    for (const Index v : vertices_) topology.triangles_at(v, out);
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
@@ -255,7 +249,7 @@ class Neighbourhood {
     return at(v) < vertices_.size() ? out_.map.to(vertices_[at(v)]) : fresh_[at(v) - vertices_.size()];
   }
 
-  // Entries between two rows that differ are new. The others are those of the surface before, so the matrix stays
+  // Entries between two rows that differ are new. Other entries stay as before, so the matrix stays
   // symmetric to the bit.
   void write_rows() {
     struct Entry {

@@ -3,7 +3,7 @@
 // The intrinsic Delaunay triangulation of the mesh after differs from that before near the patch alone: an edge is
 // Delaunay or not by its two triangles. So the operator is made of the triangles within a few rings of the patch, once
 // with the old triangles and once with the new ones. The rows that differ between the two are the rows of the patch, if
-// the rows with the old triangles are those of the surface before, there and at all neighbours. Then the new
+// the rows with the old triangles equal the rows of the surface before, there and at all neighbours. Then the new
 // triangulation inside and the old one outside have the same triangles along their border, so every edge of the two
 // together is Delaunay. If the test fails, more rings are taken.
 #pragma once

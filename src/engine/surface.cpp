@@ -6,7 +6,7 @@
 namespace hf_inner {
 
 namespace {
-constexpr std::size_t unlinked_slot = 3;  // after those of the kinds of field
+constexpr std::size_t unlinked_slot = 3;  // after the slots of the kinds of field
 }  // namespace
 
 // Runs when the last user of an operator is gone.

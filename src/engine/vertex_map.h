@@ -14,8 +14,19 @@ class VertexMap {
         after_(after.given_of_inner),
         keeps_numbers_(before.numbering == after.numbering),
         to_(&memory),
-        from_(&memory) {
-    if (keeps_numbers_) return;
+        from_(&memory),
+        went_(&memory),
+        fresh_(&memory) {
+    if (keeps_numbers_) {
+      const std::size_t both = std::min(before_.size(), after_.size());
+      const Index *const old = before_.data(), *const now = after_.data();
+      for (std::size_t v = 0; v < both; ++v)
+        if (old[v] != now[v]) went_.push_back(static_cast<Index>(v));
+      fresh_.assign(went_.begin(), went_.end());
+      for (std::size_t v = both; v < before_.size(); ++v) went_.push_back(static_cast<Index>(v));
+      for (std::size_t v = both; v < after_.size(); ++v) fresh_.push_back(static_cast<Index>(v));
+      return;
+    }
     to_.assign(before_.size(), Mesh::none);
     from_.assign(after_.size(), Mesh::none);
     Index last = Mesh::none;  // a vertex that went and came again counts as a new one, so that numbers ascend
@@ -26,10 +37,19 @@ class VertexMap {
       last = from_[v] = u;
       to_[at(u)] = static_cast<Index>(v);
     }
+    for (std::size_t u = 0; u < to_.size(); ++u)
+      if (to_[u] == Mesh::none) went_.push_back(static_cast<Index>(u));
+    for (std::size_t v = 0; v < from_.size(); ++v)
+      if (from_[v] == Mesh::none) fresh_.push_back(static_cast<Index>(v));
   }
 
   Index before_count() const noexcept { return static_cast<Index>(before_.size()); }
   Index after_count() const noexcept { return static_cast<Index>(after_.size()); }
+  // The vertices before that are not after, and the vertices after that were not before; ascending.
+  const Vector<Index>& went() const noexcept { return went_; }
+  const Vector<Index>& fresh() const noexcept { return fresh_; }
+  // Whether vertices that stay have the same numbers.
+  bool keeps_numbers() const noexcept { return keeps_numbers_; }
   // The number after of a vertex before, or none, and the other way round. Numbers ascend where they are not none.
   Index to(Index u) const noexcept { return keeps_numbers_ ? (is_kept(u) ? u : Mesh::none) : to_[at(u)]; }
   Index from(Index v) const noexcept { return keeps_numbers_ ? (is_kept(v) ? v : Mesh::none) : from_[at(v)]; }
@@ -40,7 +60,7 @@ class VertexMap {
   }
   SharedVector<Index> before_, after_;  // the vertex of the caller, by inner vertex
   bool keeps_numbers_;
-  Vector<Index> to_, from_;
+  Vector<Index> to_, from_, went_, fresh_;
 };
 
 }  // namespace hf_inner

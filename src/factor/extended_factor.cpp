@@ -29,20 +29,15 @@ class ExtendedPaths final : public PathGroup {
 
 class ExtendedFactor final : public Factor {
  public:
-  ExtendedFactor(std::shared_ptr<const Factor> base, Span<const Index> unknown_of, Index count, double scale,
-                 Memory& memory)
+  ExtendedFactor(std::shared_ptr<const Factor> base, Vector<Index>&& rows, Index count, double scale, Memory& memory)
       : base_(std::move(base)),
         memory_(memory),
         count_(count),
         scale_(scale),
-        position_(unknown_of.size(), &memory),
-        order_(unknown_of.size(), &memory),
+        position_(std::move(rows)),
+        order_(position_.size(), &memory),
         statistics_(base_->statistics()) {
-    const Span<const Index> there = base_->position();
-    for (std::size_t i = 0; i < position_.size(); ++i) {
-      position_[i] = is_new(unknown_of[i]) ? unknown_of[i] : there[at(unknown_of[i])];
-      order_[at(position_[i])] = static_cast<Index>(i);
-    }
+    for (std::size_t i = 0; i < position_.size(); ++i) order_[at(position_[i])] = static_cast<Index>(i);
     statistics_.bytes += 8.0 * static_cast<double>(position_.size());
   }
 
@@ -247,9 +242,9 @@ void ExtendedFactor::project(const PathGroup& group, const double* z, Index chan
 
 }  // namespace
 
-std::shared_ptr<const Factor> extend_factor(std::shared_ptr<const Factor> base, Span<const Index> unknown_of,
-                                            Index count, double scale, Memory& memory) {
-  return make_shared_in<ExtendedFactor>(memory, std::move(base), unknown_of, count, scale, memory);
+std::shared_ptr<const Factor> extend_factor(std::shared_ptr<const Factor> base, Vector<Index>&& rows, Index count,
+                                            double scale, Memory& memory) {
+  return make_shared_in<ExtendedFactor>(memory, std::move(base), std::move(rows), count, scale, memory);
 }
 
 }  // namespace hf_inner

@@ -24,8 +24,9 @@ struct Corners {
 
 class MeshPatcher {
  public:
-  MeshPatcher(const Mesh& before, const MeshPatch& patch, Memory& memory)
+  MeshPatcher(const Mesh& before, const Topology* topology, const MeshPatch& patch, Memory& memory)
       : before_(before),
+        topology_(topology),
         patch_(patch),
         memory_(memory),
         out_(memory),
@@ -159,8 +160,16 @@ class MeshPatcher {
 
   // The triangles that stay and have a touched corner, and the vertices that go: touched ones that no triangle holds.
   void find_around() {
+    if (topology_) {
+      for (std::size_t v = 0; v < touched_.size(); ++v)
+        if (touched_[v]) topology_->triangles_at(static_cast<Index>(v), around_);
+      std::sort(around_.begin(), around_.end());
+      around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
+      around_.erase(std::remove_if(around_.begin(), around_.end(), [&](Index t) { return gone_[at(t)] != 0; }),
+                    around_.end());
+    }
     const Index* v = before_.corners.data();
-    for (Index t = 0; t < before_.triangle_count(); ++t, v += 3) {
+    for (Index t = 0; !topology_ && t < before_.triangle_count(); ++t, v += 3) {
       if ((touched_[at(v[0])] | touched_[at(v[1])] | touched_[at(v[2])]) != 0 && !gone_[at(t)]) around_.push_back(t);
     }
     Vector<Index> corners(&memory_);
@@ -272,7 +281,7 @@ class MeshPatcher {
     }
   }
 
-  // New triangles take the numbers of those that went; the last ones fill what is left.
+  // New triangles take the numbers of triangles that went. The last triangles fill the holes that are left.
   void put_triangles() {
     Mesh& mesh = out_.mesh;
     const std::size_t old = before_.corners.size() / 3, given = before_.triangle_of_given.size();
@@ -365,7 +374,7 @@ class MeshPatcher {
     }
   }
 
-  // Components stay if the triangles around the patch join what they joined before.
+  // Components stay if the triangles around the patch join the same components as before.
   void find_components() {
     Mesh& mesh = out_.mesh;
     Vector<Index> near(&memory_);  // the vertices of these triangles
@@ -439,10 +448,13 @@ class MeshPatcher {
     report.vertex_count += more;
     report.welded_vertex_count += more;
     report.triangle_count += static_cast<std::uint32_t>(added_.size() / 3);
+    out_.came.assign(given_.begin(), given_.end());
+    out_.came.insert(out_.came.end(), copies_.begin(), copies_.end());
     report.isolated_vertex_count = static_cast<std::uint32_t>(mesh.isolated.size());
   }
 
   const Mesh& before_;
+  const Topology* topology_;
   const MeshPatch& patch_;
   Memory& memory_;
   PatchedMesh out_;
@@ -461,12 +473,12 @@ class MeshPatcher {
 
 }  // namespace
 
-PatchedMesh patched_mesh(const Mesh& before, const MeshPatch& patch, Memory& memory) {
+PatchedMesh patched_mesh(const Mesh& before, const Topology* topology, const MeshPatch& patch, Memory& memory) {
   require_triangles(before, "a patch", HF_NO_INDEX);
   if (!before.faces.empty())
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
          "triangles of a surface of polygons cannot be exchanged; make the surface of triangles");
-  return MeshPatcher(before, patch, memory).make();
+  return MeshPatcher(before, topology, patch, memory).make();
 }
 
 }  // namespace hf_inner

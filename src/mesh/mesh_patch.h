@@ -6,7 +6,7 @@
 // others keep theirs, unless more vertices go than come. The frame (centre and scale) stays, so the numbers of the rest
 // keep their bits.
 #pragma once
-#include "mesh/mesh.h"
+#include "mesh/topology.h"
 
 namespace hf_inner {
 
@@ -19,20 +19,22 @@ struct MeshPatch {
 
 struct PatchedMesh {
   explicit PatchedMesh(Memory& memory)
-      : mesh(memory), number(&memory), touched(&memory), around(&memory), went(&memory) {}
+      : mesh(memory), number(&memory), touched(&memory), around(&memory), went(&memory), came(&memory) {}
   Mesh mesh;
   // By inner vertex of the mesh before: its number now, or none. Empty: vertices that stay keep their numbers.
   Vector<Index> number;
   Vector<Index> touched;  // inner vertices with other triangles than before, ascending
   Vector<Index> around;   // the usable triangles at these vertices
   Vector<Index> went;     // inner vertices before that went, ascending
+  Vector<Index> came;     // vertices of the caller that became inner ones
   bool same_components = false;
 };
 
 // Throws HF_ERROR_UNSUPPORTED (a graph, or a mesh of polygons), HF_ERROR_OUT_OF_RANGE, HF_ERROR_CONFLICT (a triangle
 // listed twice, on another triangle, or not there any more), HF_ERROR_INVALID_ARGUMENT (equal corners),
 // HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE, HF_ERROR_EMPTY (no triangle is left), all with the position in its list as
-// index, or std::bad_alloc. Cost: O(n), a few passes over the triangles.
-PatchedMesh patched_mesh(const Mesh& before, const MeshPatch& patch, Memory& memory);
+// index, or std::bad_alloc. topology: of the mesh before, or null. Cost: copies of the arrays; without a topology a
+// pass over the triangles more.
+PatchedMesh patched_mesh(const Mesh& before, const Topology* topology, const MeshPatch& patch, Memory& memory);
 
 }  // namespace hf_inner

@@ -138,4 +138,11 @@ void count_edges(const Topology& topology, MeshReport& report) noexcept {
   }
 }
 
+void Topology::triangles_at(Index v, Vector<Index>& out) const {
+  for (Index i = neighbour_start[at(v)]; i < neighbour_start[at(v) + 1]; ++i) {
+    const std::size_t e = at(neighbour_edge[at(i)]);
+    for (Index s = edge_triangle_start[e]; s < edge_triangle_start[e + 1]; ++s) out.push_back(triangle(s));
+  }
+}
+
 }  // namespace hf_inner

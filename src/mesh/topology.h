@@ -29,6 +29,9 @@ struct Topology {
   std::int32_t corner(std::int32_t i) const noexcept { return side(i) / 2; }
   bool forward(std::int32_t i) const noexcept { return (side(i) & 1) != 0; }
 
+  // Appends the triangles at a vertex, each twice.
+  void triangles_at(std::int32_t v, Vector<std::int32_t>& out) const;
+
   // The edge between two vertices, or Mesh::none.
   std::int32_t edge_between(std::int32_t a, std::int32_t b) const noexcept;
 

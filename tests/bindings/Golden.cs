@@ -231,9 +231,23 @@ class Scene
                         Barycentrics = rows.Skip(8 * i + 4).Take(3).ToArray(),
                         Weight = rows[8 * i + 7],
                     }).ToArray();
-                    objects[name] = surface.Edit(vertices, Doubles(step, "stiffness"), links, Numbers(Get(step, "removed_links")));
+                    var patch = new PatchDesc
+                    {
+                        RemovedTriangles = Numbers(Get(step, "removed_triangles")),
+                        NewPositions = Doubles(step, "new_positions"),
+                        NewTriangles = Numbers(Get(step, "new_triangles")),
+                        CutEdges = Numbers(Get(step, "cut_edges")),
+                    };
+                    bool patches = patch.RemovedTriangles != null || patch.NewTriangles != null || patch.CutEdges != null;
+                    objects[name] = surface.Edit(vertices, Doubles(step, "stiffness"), links,
+                            Numbers(Get(step, "removed_links")), patches ? patch : null);
                     return null;
                 }
+            case "cuts":
+                return new Result
+                {
+                    Array = surface.Cuts().SelectMany(cut => new double[] { cut.Triangle, cut.Corner, cut.Vertex, cut.Copied }).ToArray()
+                };
             case "move_to":
                 {
                     var edited = (Surface)objects[(string)step["to"]];

@@ -134,9 +134,19 @@ function runStep(hf, step, meshes, objects, kept) {
         stiffness: get('stiffness'),
         links: links.length ? links : null,
         removedLinks: get('removed_links'),
+        patch: ['removed_triangles', 'new_positions', 'new_triangles', 'cut_edges'].some((name) => name in step)
+          ? {
+              removedTriangles: get('removed_triangles'),
+              newPositions: get('new_positions'),
+              newTriangles: get('new_triangles'),
+              cutEdges: get('cut_edges'),
+            }
+          : null,
       });
       return {};
     }
+    case 'cuts':
+      return { array: on.cuts().flatMap((cut) => [cut.triangle, cut.corner, cut.vertex, cut.copied]) };
     case 'move_to':
       on.moveTo(objects[step.to]);
       return {};

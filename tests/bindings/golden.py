@@ -107,7 +107,12 @@ class Scene:
             links = np.zeros(len(rows), np.dtype(hf._raw.hf_link)) if len(rows) else None
             for link, row in zip(() if links is None else links, rows):
                 link["vertex"], link["corners"], link["barycentrics"], link["weight"] = row[0], row[1:4], row[4:7], row[7]
-            self.objects[step["as"]] = on.edit(get("vertices"), get("stiffness"), links, get("removed_links"))
+            patch = {name: np.reshape(step[name], shape) for name, shape in (("removed_triangles", -1),
+                ("new_positions", (-1, 3)), ("new_triangles", (-1, 3)), ("cut_edges", (-1, 2))) if name in step}
+            self.objects[step["as"]] = on.edit(get("vertices"), get("stiffness"), links, get("removed_links"),
+                patch=patch or None)
+        elif do == "cuts":
+            return "array", np.array([list(cut) for cut in on.cuts().tolist()], float).ravel()
         elif do == "move_to":
             on.move_to(self.objects[step["to"]])
         elif do == "dispose":

@@ -385,6 +385,14 @@ impl Scene<'_> {
             Ok(Answer::Array(list.into_iter().map(f64::from).collect()))
         };
         let made = match what {
+            "cuts" => {
+                let cuts = on!(self, step, Surface).cuts()?;
+                let flat = cuts
+                    .iter()
+                    .flat_map(|c| [c.triangle, c.corner, c.vertex, c.copied])
+                    .map(f64::from);
+                return Ok(Found::Array(flat.collect()));
+            }
             "edit_surface" => {
                 let rows = self.doubles(step, "links").unwrap_or_default();
                 let links: Vec<raw::hf_link> = rows
@@ -400,11 +408,25 @@ impl Scene<'_> {
                 let (vertices, removed) =
                     (self.integers(step, "vertices"), self.integers(step, "removed_links"));
                 let stiffness = self.doubles(step, "stiffness");
+                let (gone, corners, edges) = (
+                    self.integers(step, "removed_triangles"),
+                    self.integers(step, "new_triangles"),
+                    self.integers(step, "cut_edges"),
+                );
+                let positions = self.doubles(step, "new_positions");
+                let patches = gone.is_some() || corners.is_some() || edges.is_some();
+                let patch = Patch {
+                    removed_triangles: gone.as_deref(),
+                    new_positions: positions.as_deref(),
+                    new_triangles: corners.as_deref(),
+                    cut_edges: edges.as_deref(),
+                };
                 let edited = on!(self, step, Surface).edit(&SurfaceEdit {
                     vertices: vertices.as_deref(),
                     stiffness: stiffness.as_deref(),
                     links: if links.is_empty() { None } else { Some(&links) },
                     removed_links: removed.as_deref(),
+                    patch: if patches { Some(patch) } else { None },
                     progress: None,
                 })?;
                 return self.keep(step, Object::Surface(edited));

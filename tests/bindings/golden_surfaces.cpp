@@ -162,9 +162,24 @@ void Scene::edit_surface(const Json& step, hf_surface surface) {
     desc.removed_link_count = count(removed);
     desc.removed_links = data(removed);
   }
-  const size_t n = objects_[step["on"]].vertex_count;
+  const auto gone = numbers(step, "removed_triangles"), corners = numbers(step, "new_triangles"),
+             edges = numbers(step, "cut_edges");
+  const auto positions = doubles(step, "new_positions");
+  auto patch = make<hf_patch_desc>();
+  if (gone || corners || positions || edges) desc.patch = &patch;
+  if (gone) patch.removed_triangle_count = count(gone);
+  if (corners) patch.new_triangle_count = count(corners) / 3;
+  if (positions) patch.new_vertex_count = count(positions) / 3;
+  if (edges) patch.cut_edge_count = count(edges) / 2;
+  patch.removed_triangles = data(gone);
+  patch.new_triangles = data(corners);
+  patch.new_positions = data(positions);
+  patch.cut_edges = data(edges);
   hf_surface raw = nullptr;
   check(hf_surface_edit(surface, &desc, &raw));
+  auto info = make<hf_surface_info>();
+  check(hf_surface_get_info(raw, &info));
+  const size_t n = info.vertex_count;
   Object& object = objects_[step["as"]];
   object = {};
   object.surface = hf::Handle<hf_surface, hf_surface_destroy>(raw);
@@ -198,6 +213,14 @@ Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface sur
     result.array.emplace(components.begin(), components.end());
   } else if (what == "edit_surface") {
     edit_surface(step, surface);
+  } else if (what == "cuts") {
+    uint32_t size = 0;
+    check(hf_surface_get_cuts(surface, 0, nullptr, &size));
+    std::vector<hf_cut_corner> cuts(size);
+    check(hf_surface_get_cuts(surface, size, cuts.data(), &size));
+    result.array.emplace();
+    for (const hf_cut_corner& cut : cuts)
+      for (const uint32_t x : {cut.triangle, cut.corner, cut.vertex, cut.copied}) result.array->push_back(x);
   } else {  // save
     const int32_t kind = step.value("field_kind", 0);
     size_t size = 0;
