@@ -6,7 +6,7 @@ import re
 import class_rust
 import comments
 from model import named, symbols
-from plan import camel, counts_of, dims_used
+from plan import camel, counts_of, dims_used, edits, moves
 from steps import Planner, desc_steps, field_steps, least
 from words import Words, class_words, fold, method_words, wrapped
 
@@ -185,7 +185,8 @@ class Steps:
         return [f"auto {safe(var)}_ = make<{type}>();", f"if (!{safe(var)}) {safe(var)} = &{safe(var)}_;"] if optional else [f"auto {safe(var)} = make<{type}>();"]
 
     def do_call(self, function, values):
-        return [f"check({self.called(function, values)});"]
+        lines = [f"check({self.called(function, values)});"]
+        return lines + (['counts_["vertex_count"] = known(surface.known_counts(), "vertex_count");'] if moves(function) else [])
 
     def do_returns(self, function, values):
         return [f"return {self.called(function, values)};"]
@@ -195,7 +196,9 @@ class Steps:
         given = ", ".join([*(self.value(v, p) for v, p in zip(values, parameters)), "&raw"])
         counts = ", ".join(f'"{k}"' for k in self.w.counts)
         end = f"own(raw, c.counts({{{counts}}}));" if made == "self" else f"return {camel(self.w.noun)}(raw, c.counts({{{counts}}}));"
-        return [f"{self.w.noun} raw = nullptr;", f"check({function}({given}));", end]
+        if edits(function):
+            end = [end.replace("return ", "").replace("(raw", " made(raw", 1), 'made.counts_["vertex_count"] = made.info().vertex_count;', "return made;"]
+        return [f"{self.w.noun} raw = nullptr;", f"check({function}({given}));", *(end if edits(function) else [end])]
 
     def do_bytes(self, function, first, second):
         return ["size_t size = 0;", f"check({self.called(function, first)});", "std::vector<uint8_t> block(size);", f"check({self.called(function, second)});"]

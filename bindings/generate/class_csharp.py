@@ -6,7 +6,7 @@ import re
 import comments
 from layer_csharp import TYPES, safe as raw_safe
 from model import named, symbols
-from plan import bare, camel, classes, counts_of, dims_used, recorded
+from plan import bare, camel, classes, counts_of, dims_used, edits, moves, recorded
 from steps import Planner, desc_steps, field_steps, least
 from words import Words, class_words, fold, method_words, wrapped
 
@@ -207,7 +207,8 @@ class Steps:
         return f"Functions.{function}({', '.join(map(self.value, values))})"
 
     def do_call(self, function, values):
-        return [f"HfException.Check({self.called(function, values)});"]
+        lines = [f"HfException.Check({self.called(function, values)});"]
+        return lines + (['lock (Counts) Counts["vertex_count"] = surface.Known("vertex_count");'] if moves(function) else [])
 
     def do_returns(self, function, values):
         return [f"{TYPES[self.w.function(function)['returns']['type']]} result = {self.called(function, values)};", "GC.KeepAlive(this);"]
@@ -222,7 +223,8 @@ class Steps:
             lines.append(f"HfException.Check(Functions.{function}({given}));")
         if who:
             lines.append(f"var made = new {cs(self.w.noun)}();")
-        return [*lines, f"{who}Own(*raw, {self.w.destroy}, c{''.join(f', {chr(34)}{k}{chr(34)}' for k in self.w.counts)});"]
+        lines += [f"{who}Own(*raw, {self.w.destroy}, c{''.join(f', {chr(34)}{k}{chr(34)}' for k in self.w.counts)});"]
+        return lines + ([f'{who}Counts["vertex_count"] = (int){who}Info.VertexCount;'] if edits(function) else [])
 
     def do_bytes(self, function, first, second):
         second = [("grownblock",) if v == ("address", "block") else v for v in second]

@@ -4,7 +4,7 @@ arrays to memory and counts, room for arrays that grow."""
 import re
 
 from model import named, symbols
-from plan import FIRST, PLACE, camel, classes, counts_of, dims_used, recorded
+from plan import FIRST, PLACE, camel, classes, counts_of, dims_used, edits, moves, recorded
 from steps import Planner, desc_steps, field_steps, least
 from types_js import ARRAYS, KINDS, Types, js
 from words import Words, fold, wrapped
@@ -158,7 +158,8 @@ class Steps:
         return [] if optional else [f"const {js(var)} = c.struct('{type}', {{}});"]
 
     def do_call(self, function, values):
-        return [f"call({', '.join([repr(function), *map(self.value, values)])});"]
+        lines = [f"call({', '.join([repr(function), *map(self.value, values)])});"]
+        return lines + (["this._n.vertex_count = surface._n.vertex_count;"] if moves(function) else [])
 
     def do_returns(self, function, values):
         return [f"return direct('{function}', {', '.join(map(self.value, values))});"]
@@ -166,7 +167,8 @@ class Steps:
     def do_make(self, made, function, values, kind):
         lines = [] if made == "self" else [f"const made = new {'this' if kind == 'create' else 'this.constructor'}(bare);"]
         lines += ["Object.assign(c.n, this._n);"] if kind in ("clone", "derive") else []
-        return [*lines, f"{'this' if made == 'self' else made}._own({', '.join([repr(function), 'c', *map(self.value, values)])});"]
+        lines += [f"{'this' if made == 'self' else made}._own({', '.join([repr(function), 'c', *map(self.value, values)])});"]
+        return lines + ([f"{made}._n.vertex_count = {made}.info.vertexCount;"] if edits(function) else [])
 
     def do_bytes(self, function, first, second):
         first, second = self.do_call(function, first), self.do_call(function, second)

@@ -7,7 +7,7 @@ import textwrap
 from errors_python import block, error_name, errors
 from layer_python import TYPES as CTYPES
 from model import named, symbols
-from plan import PLACE, camel, classes, counts_of, dims_used, recorded
+from plan import PLACE, camel, classes, counts_of, dims_used, edits, moves, recorded
 from steps import Planner, desc_steps, field_steps, least
 from words import Words, class_words, fold, method_words
 
@@ -161,7 +161,8 @@ class Steps:
         return [f"{safe(var)} = {safe(var) + ' or ' if optional else ''}c.struct(_raw.{type}, {{}})"]
 
     def do_call(self, function, values):
-        return [f"call({', '.join([repr(function), *map(self.value, values)])})"]
+        lines = [f"call({', '.join([repr(function), *map(self.value, values)])})"]
+        return lines + (["self._n['vertex_count'] = surface._n['vertex_count']"] if moves(function) else [])
 
     def do_returns(self, function, values):
         return []
@@ -169,7 +170,8 @@ class Steps:
     def do_make(self, made, function, values, kind):
         lines = [] if made == "self" else [f"made = {'cls.__new__(cls)' if kind == 'create' else 'type(self).__new__(type(self))'}"]
         lines += ["c.n.update(self._n)"] if kind in ("clone", "derive") else []
-        return [*lines, f"{made}._own({', '.join([repr(function), 'c', *map(self.value, values)])})"]
+        lines += [f"{made}._own({', '.join([repr(function), 'c', *map(self.value, values)])})"]
+        return lines + ([f"{made}._n['vertex_count'] = {made}.info.vertex_count"] if edits(function) else [])
 
     def do_bytes(self, function, first, second):
         return ["size = ctypes.c_size_t()", *self.do_call(function, first), "block = np.empty(size.value, np.uint8)", *self.do_call(function, second)]

@@ -6,7 +6,7 @@ import re
 import comments
 from layer_rust import RESERVED as WORDS, TYPES, safe as raw_safe
 from model import named, symbols
-from plan import FIRST, camel, classes, counts_of, dims_used, recorded
+from plan import FIRST, camel, classes, counts_of, dims_used, edits, moves, recorded
 from steps import Planner, field_steps, least
 from words import Words, class_words, fold, method_words, wrapped
 
@@ -201,7 +201,8 @@ class Steps:
         return [] if optional else [f"let mut {safe(var)} = raw::{type}::default();"]
 
     def do_call(self, function, values):
-        return ["// SAFETY: every slice is as long as its check says.", f"check(unsafe {{ {self.called(function, values)}) }})?;"]
+        lines = ["// SAFETY: every slice is as long as its check says.", f"check(unsafe {{ {self.called(function, values)}) }})?;"]
+        return lines + (["self.counts.extend(surface.counts.clone());"] if moves(function) else [])
 
     def do_returns(self, function, values):
         return ["// SAFETY: the handle is valid.", f"unsafe {{ {self.called(function, values)}) }}"]
@@ -210,8 +211,10 @@ class Steps:
         parameters = self.w.function(function)["parameters"]
         given = ", ".join([*(self.value(v, p) for v, p in zip(values, parameters)), "&mut handle_"])
         counts = ", ".join(f'"{k}"' for k in self.w.counts)
+        made = f"{camel(self.w.noun)} {{ handle: handle_, counts: c.counts(&[{counts}]) }}"
+        end = [f"let mut made = {made};", "let info = made.info()?;", 'made.counts.insert("vertex_count".into(), info.vertex_count as usize);', "Ok(made)"]
         return ["let mut handle_ = std::ptr::null_mut();", "// SAFETY: every slice is as long as its check says.", f"check(unsafe {{ raw::{function}({given}) }})?;",
-                f"Ok({camel(self.w.noun)} {{ handle: handle_, counts: c.counts(&[{counts}]) }})"]
+                *(end if edits(function) else [f"Ok({made})"])]
 
     def do_bytes(self, function, first, second):
         return ["let mut size = 0;", "// SAFETY: the first call asks for the size.", f"check(unsafe {{ {self.called(function, first)}) }})?;", "let mut block = vec![0u8; size];",

@@ -127,6 +127,16 @@ def classes(api):
     return [(h, [m for m in methods if m.noun == h["name"]]) for h in api["handles"]], structs
 
 
+def edits(function):
+    """Whether the object that a function makes may have other counts than the object that it was made from."""
+    return function == "hf_surface_edit"
+
+
+def moves(function):
+    """Whether an object takes the counts of the surface that it goes to."""
+    return function.endswith("_move_to")
+
+
 def counts_of(handle, groups, structs):
     """The counts that an object keeps: its own calls ask for them, or those of objects made on it do."""
     methods = next(methods for h, methods in groups if h is handle)

@@ -1107,7 +1107,9 @@ class Surface {
     const hf_surface_edit_desc desc = options.fill(c, "list_");
     hf_surface raw = nullptr;
     check(hf_surface_edit(get(), &desc, &raw));
-    return Surface(raw, c.counts({"vertex_count"}));
+    Surface made(raw, c.counts({"vertex_count"}));
+    made.counts_["vertex_count"] = made.info().vertex_count;
+    return made;
   }
 
   // Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts.
@@ -1406,6 +1408,7 @@ class Solver {
     Call c(counts_);
     c.parent("surface", surface.known_counts());
     check(hf_solver_move_to(get(), surface.get()));
+    counts_["vertex_count"] = known(surface.known_counts(), "vertex_count");
   }
 
   // Writes the options of a solver.
@@ -2174,6 +2177,7 @@ class Pose {
     Call c(counts_);
     c.parent("surface", surface.known_counts());
     check(hf_pose_move_to(get(), surface.get()));
+    counts_["vertex_count"] = known(surface.known_counts(), "vertex_count");
   }
 
   // Writes the options of a pose.

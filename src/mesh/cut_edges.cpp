@@ -67,16 +67,18 @@ class Fan {
       if (!is_cut(wings_[0].vertex, sides[i].other)) groups.unite(sides[i].wing, sides[i - 1].wing);
     }
     // the lowest wing stands for its group, and the lowest group of a fan keeps the vertex
-    for (std::size_t g = 0; g < wings_.size(); ++g) {
-      const Index group = static_cast<Index>(g);
-      if (groups.find(group) != group || fans.find(group) == group) continue;
-      for (std::size_t w = g; w < wings_.size(); ++w) {
-        if (groups.find(static_cast<Index>(w)) != group) continue;
-        out.push_back(
-            {given_[at(wings_[w].triangle)], wings_[w].corner, next_copy, mesh_.given_of_inner[at(wings_[w].vertex)]});
-      }
-      ++next_copy;
+    Vector<Side> parts(&memory_);  // groups that take copies, and their wings
+    for (std::size_t w = 0; w < wings_.size(); ++w) {
+      const Index group = groups.find(static_cast<Index>(w));
+      if (fans.find(group) != group) parts.push_back({group, static_cast<Index>(w)});
     }
+    std::sort(parts.begin(), parts.end());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (i > 0 && parts[i].other != parts[i - 1].other) ++next_copy;
+      const Wing& wing = wings_[at(parts[i].wing)];
+      out.push_back({given_[at(wing.triangle)], wing.corner, next_copy, mesh_.given_of_inner[at(wing.vertex)]});
+    }
+    if (!parts.empty()) ++next_copy;
   }
 
  private:

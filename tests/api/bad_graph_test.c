@@ -318,6 +318,15 @@ static void graphs_take_a_stiffness(void** state) {
   for (int v = 0; v < VERTICES; ++v) assert_float_equal(again[v], out[v], 1e-12);
   hf_pose none = NULL;
   assert_code(HF_ERROR_INVALID_OBJECT, hf_pose_move_to(none, stiff));
+  assert_ok(hf_surface_get_cuts(graph, 0, NULL, &count));
+  assert_int_equal(count, 0);
+  hf_patch_desc patch = HF_INIT(hf_patch_desc);
+  patch.cut_edge_count = 1;
+  patch.cut_edges = vertex;
+  edit = HF_INIT(hf_surface_edit_desc);
+  edit.patch = &patch;
+  hf_surface cut = NULL;
+  assert_code(HF_ERROR_UNSUPPORTED, hf_surface_edit(graph, &edit, &cut));
   hf_surface_destroy(stiff);
   hf_solver_destroy(solver);
   hf_solver_destroy(vectors);

@@ -12,7 +12,7 @@ const std::set<std::string> direction_steps = {"add_vectors",   "remove_vectors"
                                                "rotate",        "record_vectors", "undo_vectors", "redo_vectors",
                                                "clone_vectors", "vectors",        "directions",   "singularities"};
 const std::set<std::string> mesh_steps = {"report", "surface_statistics", "surface_info", "components",
-                                          "save",   "edit_surface"};
+                                          "save",   "edit_surface",       "cuts"};
 const std::set<std::string> region_steps = {"region",          "region_edit",  "region_info",
                                             "region_vertices", "region_curve", "record_region",
                                             "undo_region",     "redo_region",  "morph"};
@@ -106,8 +106,10 @@ Result Scene::run(const Json& step) {
     on.detail = {};
     on.weights = {};
   } else if (what == "move_to") {
-    hf_surface to = objects_[step["to"]].surface.get();
-    check(on.pose.get() ? hf_pose_move_to(on.pose.get(), to) : hf_solver_move_to(solver, to));
+    const Object& to = objects_[step["to"]];
+    check(on.pose.get() ? hf_pose_move_to(on.pose.get(), to.surface.get())
+                        : hf_solver_move_to(solver, to.surface.get()));
+    on.vertex_count = to.vertex_count;
   } else if (what == "clone") {
     hf_solver raw = nullptr;
     check(hf_solver_clone(solver, &raw));

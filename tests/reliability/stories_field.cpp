@@ -154,6 +154,42 @@ void edited(Story& s, const Tube& tube, Allocator& memory) {
     s.take(posed.data(), posed.size());
   }
   hf_surface_destroy(stiff);
+  // triangles go and come beside the factor, and a slit opens
+  const std::uint32_t gone[4] = {60, 61, 62, 63}, slit[4] = {20, 21, 21, 22};
+  std::vector<std::uint32_t> fans;
+  std::vector<double> middles;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t* const v = &tube.triangles[3 * gone[i]];
+    for (std::size_t x = 0; x < 3; ++x) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) sum += static_cast<double>(tube.positions[3 * v[k] + x]) / 3;
+      middles.push_back(sum);
+    }
+    for (std::size_t k = 0; k < 3; ++k) fans.insert(fans.end(), {v[k], v[(k + 1) % 3], Tube::vertices + i});
+  }
+  hf_patch_desc patches[2] = {HF_INIT(hf_patch_desc), HF_INIT(hf_patch_desc)};
+  patches[0].removed_triangle_count = patches[0].new_vertex_count = 4;
+  patches[0].removed_triangles = gone;
+  patches[0].new_positions = middles.data();
+  patches[0].new_triangle_count = 12;
+  patches[0].new_triangles = fans.data();
+  patches[1].cut_edge_count = 2;
+  patches[1].cut_edges = slit;
+  for (const hf_patch_desc& patch : patches) {
+    edit = HF_INIT(hf_surface_edit_desc);
+    edit.patch = &patch;
+    hf_surface made = nullptr;
+    s.make("hf_surface_edit", made, [&] { return hf_surface_edit(surface, &edit, &made); });
+    if (!made) break;
+    s.call("hf_solver_move_to", [&] { return hf_solver_move_to(solver, made); });
+    std::vector<double> field(Tube::vertices + 4);
+    s.call("hf_solver_solve", [&] { return hf_solver_solve(solver, OUT(field.data()), nullptr); });
+    s.take(field.data(), field.size());
+    hf_surface_report report = HF_INIT(hf_surface_report);
+    s.call("hf_surface_get_report", [&] { return hf_surface_get_report(made, &report); });
+    hf_surface_destroy(surface);
+    surface = made;
+  }
   hf_surface_destroy(surface);
   hf_solver_destroy(solver);
   hf_pose_destroy(pose);

@@ -267,6 +267,24 @@ struct AnalysisCalls {
       desc.vertices = nullptr;
       desc.stiffness = nullptr;
     }
+    hf_patch_desc patch = HF_INIT(hf_patch_desc);
+    const std::uint32_t gone[2] = {random.index(s.world.shape->count()), random.index(s.world.shape->count())};
+    const double middle[3] = {random.number(), 0.1, 0.2};
+    std::uint32_t corners[6];
+    for (std::uint32_t& corner : corners) corner = random.index(s.world.shape->vertices() + 1);
+    if (random.one_in(3)) {
+      patch.removed_triangle_count = random.below(3);
+      patch.removed_triangles = gone;
+      patch.new_vertex_count = random.below(2);
+      patch.new_positions = middle;
+      patch.new_triangle_count = random.below(3);
+      patch.new_triangles = corners;
+      patch.cut_edge_count = random.one_in(3) ? 3 : 0;
+      patch.cut_edges = corners;
+      desc = HF_INIT(hf_surface_edit_desc);
+      desc.progress = s.world.progress();
+      desc.patch = random.spoiled(patch);
+    }
     hf_surface made = s.world.surface;
     const hf_result result = hf_surface_edit(s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused surface is no NULL");

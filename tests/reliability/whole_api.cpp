@@ -31,6 +31,21 @@ void Run::edits(hf_surface surface) {
   std::uint32_t count = 0;
   call(hf_surface_get_stiffness(stiff, n, whole.data(), &count), "hf_surface_get_stiffness");
   take(whole.data(), count);
+  hf_patch_desc patch = desc<hf_patch_desc>();
+  const std::uint32_t slit[4] = {s.triangles[0], s.triangles[1], s.triangles[1], s.triangles[2]};
+  patch.cut_edge_count = 2;
+  patch.cut_edges = slit;
+  hf_surface_edit_desc knife = desc<hf_surface_edit_desc>();
+  knife.patch = &patch;
+  hf_surface open = nullptr;
+  call(hf_surface_edit(stiff, &knife, &open), "hf_surface_edit");
+  std::array<hf_cut_corner, 16> corners{};
+  call(hf_surface_get_cuts(open, 16, corners.data(), &count), "hf_surface_get_cuts");
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double row[2] = {static_cast<double>(corners[i].triangle), static_cast<double>(corners[i].vertex)};
+    take(row, 2);
+  }
+  hf_surface_destroy(open);
   hf_surface_destroy(stiff);
   hf_solver_destroy(solver);
   hf_pose_destroy(pose);

@@ -2735,6 +2735,7 @@ namespace Hf
                 HfException.Check(Functions.hf_surface_edit(RawHandle, desc, raw));
                 var made = new Surface();
                 made.Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
+                made.Counts["vertex_count"] = (int)made.Info.VertexCount;
                 return made;
             }
         }
@@ -3173,6 +3174,7 @@ namespace Hf
             {
                 c.Parent("surface.", surface);
                 HfException.Check(Functions.hf_solver_move_to(RawHandle, c.Handle(surface)));
+                lock (Counts) Counts["vertex_count"] = surface.Known("vertex_count");
             }
         }
 
@@ -4331,6 +4333,7 @@ namespace Hf
             {
                 c.Parent("surface.", surface);
                 HfException.Check(Functions.hf_pose_move_to(RawHandle, c.Handle(surface)));
+                lock (Counts) Counts["vertex_count"] = surface.Known("vertex_count");
             }
         }
 

@@ -608,6 +608,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const made = new this.constructor(bare);
       Object.assign(c.n, this._n);
       made._own('hf_surface_edit', c, this._handle, desc);
+      made._n.vertex_count = made.info.vertexCount;
       return made;
     }
 
@@ -776,6 +777,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     moveTo(surface) {
       const c = new Call(this, { surface });
       call('hf_solver_move_to', this._handle, handleOf(surface, Surface, 'surface'));
+      this._n.vertex_count = surface._n.vertex_count;
     }
 
     get info() {
@@ -1126,6 +1128,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     moveTo(surface) {
       const c = new Call(this, { surface });
       call('hf_pose_move_to', this._handle, handleOf(surface, Surface, 'surface'));
+      this._n.vertex_count = surface._n.vertex_count;
     }
 
     get info() {

@@ -1432,6 +1432,7 @@ class Surface(Object):
         made = type(self).__new__(type(self))
         c.n.update(self._n)
         made._own('hf_surface_edit', c, self._handle, ref(desc))
+        made._n['vertex_count'] = made.info.vertex_count
         return made
 
     def cuts(self) -> np.ndarray:
@@ -1734,6 +1735,7 @@ class Solver(Recorded):
         """
         c = Call(self, surface=surface)
         call('hf_solver_move_to', self._handle, handle_of(surface, Surface, 'surface'))
+        self._n['vertex_count'] = surface._n['vertex_count']
 
     @property
     def info(self) -> SolverInfo:
@@ -2339,6 +2341,7 @@ class Pose(Recorded):
         """
         c = Call(self, surface=surface)
         call('hf_pose_move_to', self._handle, handle_of(surface, Surface, 'surface'))
+        self._n['vertex_count'] = surface._n['vertex_count']
 
     @property
     def info(self) -> PoseInfo:

@@ -1838,7 +1838,10 @@ impl Surface {
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_edit(self.handle, &desc, &mut handle_) })?;
-        Ok(Surface { handle: handle_, counts: c.counts(&["vertex_count"]) })
+        let mut made = Surface { handle: handle_, counts: c.counts(&["vertex_count"]) };
+        let info = made.info()?;
+        made.counts.insert("vertex_count".into(), info.vertex_count as usize);
+        Ok(made)
     }
 
     /// Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts.
@@ -2158,6 +2161,7 @@ impl Solver {
         c.parent("surface", &surface.counts);
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_move_to(self.handle, surface.handle) })?;
+        self.counts.extend(surface.counts.clone());
         Ok(())
     }
 
@@ -2891,6 +2895,7 @@ impl Pose {
         c.parent("surface", &surface.counts);
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_move_to(self.handle, surface.handle) })?;
+        self.counts.extend(surface.counts.clone());
         Ok(())
     }
 
