@@ -9,6 +9,7 @@
 #include "base/timer.h"
 #include "engine/edited_core.h"
 #include "engine/lost_components.h"
+#include "engine/piece_diagonals.h"
 #include "engine/pinned_operator.h"
 #include "factor/factor_bytes.h"
 #include "factor/work_limit.h"
@@ -49,6 +50,10 @@ void find_grounds(Core& core, const Vector<double>& diagonal) {
     core.mean_diagonal[c] /= count[c];
     if (!(core.mean_diagonal[c] > 0)) core.mean_diagonal[c] = 1;
   }
+  if (core.field_kind != FieldKind::harmonic) return;
+  const auto pieces = make_shared_in<PieceDiagonals>(*core.memory, *core.memory);
+  pieces->sum_up(core.geometry->unlinked().mesh, [&](Index v) { return diagonal[at(v)]; });
+  core.pieces = pieces;
 }
 
 // Edge weights in a bi-harmonic operator are limited to one of these multiples of their median: the first with which

@@ -132,10 +132,9 @@ struct Core {
   std::shared_ptr<const EditedMatrix> edited;  // K; null: laplacian is K
   std::shared_ptr<const Core> factored;        // the core whose factor this factor extends; null: it has its own
   CoreTimes times;
-  mutable std::mutex pieces_guard;  // of `pieces`, which edits of links make when they first need it
-  mutable std::shared_ptr<const PieceDiagonals> pieces;
-  mutable PreviewCache preview;  // the factor in single precision; not for a core with `factored`
-  WorkspacePool& workspaces;     // the pools of the geometry without links
+  std::shared_ptr<const PieceDiagonals> pieces;  // of a harmonic core with a laplacian; for edits
+  mutable PreviewCache preview;                  // the factor in single precision; not for a core with `factored`
+  WorkspacePool& workspaces;                     // the pools of the geometry without links
   WorkspacePool& zeroed_workspaces;
 };
 

@@ -8,6 +8,7 @@
 #include "engine/core_difference.h"
 #include "engine/edited_rows.h"
 #include "engine/link_change.h"
+#include "engine/piece_diagonals.h"
 #include "engine/site_cost.h"
 #include "factor/extended_factor.h"
 
@@ -19,89 +20,54 @@ namespace {
 // correction; with twice, fields lose a digit.
 constexpr double largest_rounding = 1e-10;
 
-}  // namespace
-
-// The first vertex of every piece, and the sum and the number of its diagonals, of K without links and stiffness.
-struct PieceDiagonals {
-  explicit PieceDiagonals(const Core& plain)
-      : first(plain.memory.get()), sum(plain.memory.get()), count(plain.memory.get()) {
-    sum_up(plain.geometry->unlinked().mesh,
-           [&](Index v) { return plain.laplacian.value[plain.laplacian.diagonal(v)]; });
+// The pieces after a patch.
+PieceDiagonals patched_pieces(const Core& plain, const PatchRows& patch, const Mesh& mesh) {
+  PieceDiagonals out(*plain.pieces, *plain.memory);
+  const Mesh& old = plain.geometry->unlinked().mesh;
+  const auto diagonal_before = [&](Index u) { return std::fabs(plain.laplacian.value[plain.laplacian.diagonal(u)]); };
+  bool same = patch.map.keeps_numbers() && old.component_count() == mesh.component_count();
+  if (same) {
+    const Index both = std::min(old.vertex_count(), mesh.vertex_count());
+    const Index *const a = old.component.data(), *const b = mesh.component.data();
+    std::size_t others = 0;
+    for (std::size_t v = 0; v < at(both); ++v) others += a[v] != b[v];
+    for (const Index v : patch.map.fresh()) others -= v < both && a[v] != b[v];
+    same = others == 0;
   }
-  // mesh: after the patch.
-  PieceDiagonals(const PieceDiagonals& before, const Core& plain, const PatchRows& patch, const Mesh& mesh)
-      : first(before.first, plain.memory.get()),
-        sum(before.sum, plain.memory.get()),
-        count(before.count, plain.memory.get()) {
-    const Mesh& old = plain.geometry->unlinked().mesh;
-    const auto diagonal_before = [&](Index u) { return std::fabs(plain.laplacian.value[plain.laplacian.diagonal(u)]); };
-    bool same = patch.map.keeps_numbers() && old.component_count() == mesh.component_count();
-    if (same) {
-      const Index both = std::min(old.vertex_count(), mesh.vertex_count());
-      const Index *const a = old.component.data(), *const b = mesh.component.data();
-      std::size_t others = 0;
-      for (std::size_t v = 0; v < at(both); ++v) others += a[v] != b[v];
-      for (const Index v : patch.map.fresh()) others -= v < both && a[v] != b[v];
-      same = others == 0;
-    }
-    if (!same) {
-      sum_up(mesh, [&](Index v) {
-        const Index changed = patch.find(v);
-        return changed >= 0 ? patch.diagonal(changed) : diagonal_before(patch.map.from(v));
-      });
-      return;
-    }
-    for (std::size_t i = 0; i < patch.vertex.size(); ++i) {
-      const Index u = patch.map.from(patch.vertex[i]);
-      const std::size_t c = at(mesh.component[at(patch.vertex[i])]);
-      sum[c] += std::fabs(patch.diagonal(static_cast<Index>(i))) - (u == Mesh::none ? 0.0 : diagonal_before(u));
-      count[c] += u == Mesh::none;
-    }
-    for (const Index u : patch.map.went()) {
-      sum[at(old.component[at(u)])] -= diagonal_before(u);
-      count[at(old.component[at(u)])] -= 1;
-    }
-    for (std::size_t c = 0; c < first.size(); ++c) {
-      first[c] = patch.map.to(first[c]);
-      for (Index v = 0; first[c] == Mesh::none && v < mesh.vertex_count(); ++v)
-        if (at(mesh.component[at(v)]) == c) first[c] = v;
-    }
+  if (!same) {
+    out.sum_up(mesh, [&](Index v) {
+      const Index changed = patch.find(v);
+      return changed >= 0 ? patch.diagonal(changed) : diagonal_before(patch.map.from(v));
+    });
+    return out;
   }
-
-  template <class DiagonalOf>
-  void sum_up(const Mesh& mesh, DiagonalOf&& diagonal_of) {
-    first.assign(at(mesh.component_count()), Mesh::none);
-    sum.assign(first.size(), 0.0);
-    count.assign(first.size(), 0.0);
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      const std::size_t piece = at(mesh.component[at(v)]);
-      if (first[piece] == Mesh::none) first[piece] = v;
-      sum[piece] += std::fabs(diagonal_of(v));
-      count[piece] += 1;
-    }
+  for (std::size_t i = 0; i < patch.vertex.size(); ++i) {
+    const Index u = patch.map.from(patch.vertex[i]);
+    const std::size_t c = at(mesh.component[at(patch.vertex[i])]);
+    out.sum[c] += std::fabs(patch.diagonal(static_cast<Index>(i))) - (u == Mesh::none ? 0.0 : diagonal_before(u));
+    out.count[c] += u == Mesh::none;
   }
-  Vector<Index> first;
-  Vector<double> sum, count;
-};
-
-namespace {
-
-std::shared_ptr<const PieceDiagonals> piece_diagonals(const Core& core) {
-  const std::lock_guard<std::mutex> lock(core.pieces_guard);
-  if (core.pieces) return core.pieces;
-  if (core.patch)
-    core.pieces = make_shared_in<PieceDiagonals>(*core.memory, *piece_diagonals(*core.unedited), *core.unedited,
-                                                 *core.patch, core.geometry->unlinked().mesh);
-  else
-    core.pieces = make_shared_in<PieceDiagonals>(*core.memory, core);
-  return core.pieces;
+  for (const Index u : patch.map.went()) {
+    out.sum[at(old.component[at(u)])] -= diagonal_before(u);
+    out.count[at(old.component[at(u)])] -= 1;
+  }
+  for (std::size_t c = 0; c < out.first.size(); ++c) {
+    out.first[c] = patch.map.to(out.first[c]);
+    for (Index v = 0; out.first[c] == Mesh::none && v < mesh.vertex_count(); ++v)
+      if (at(mesh.component[at(v)]) == c) out.first[c] = v;
+  }
+  return out;
 }
 
 // Finds the pinned vertex and the unit of the components after an edit, as Core::make does.
 void find_edited_grounds(Core& made) {
   const Links* const links = made.geometry->links.get();
-  const std::shared_ptr<const PieceDiagonals> found = piece_diagonals(made.patch ? made : *made.unedited);
-  const PieceDiagonals& pieces = *found;
+  const Core& plain = *made.unedited;
+  PieceDiagonals pieces(*made.memory);
+  if (made.patch)
+    pieces = patched_pieces(plain, *made.patch, made.geometry->unlinked().mesh);
+  else
+    pieces = PieceDiagonals(*plain.pieces, *made.memory);
   Vector<double> sum(at(made.mesh.component_count()), 0.0, made.memory.get()),
       count(sum.size(), 0.0, made.memory.get());
   made.ground.assign(sum.size(), Mesh::none);

@@ -185,8 +185,7 @@ std::shared_ptr<const Geometry> Geometry::patched(std::shared_ptr<const Geometry
   if (from->plain) from = from->plain;
   Timer timer;
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(from->memory, from->memory, from->jobs);
-  const bool has_edges = from->edges_made_.load(std::memory_order_acquire);
-  PatchedMesh made = patched_mesh(from->mesh, has_edges ? &from->edges_.topology : nullptr, patch, *shape->memory);
+  PatchedMesh made = patched_mesh(from->mesh, from->known_topology(), patch, *shape->memory);
   shape->operator_kind = from->operator_kind;
   shape->family = from->family;
   shape->is_patched = true;

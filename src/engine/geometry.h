@@ -61,6 +61,10 @@ struct Geometry {
   // The edges of triangles and links, and the weights of the Laplacian per edge. Thread safety: any thread.
   const Topology& topology() const { return edges().topology; }
   const Vector<double>& weights() const { return edges().weights; }
+  // The edges if they are there; else null, and nothing is made.
+  const Topology* known_topology() const noexcept {
+    return edges_made_.load(std::memory_order_acquire) ? &edges_.topology : nullptr;
+  }
   // The report of the mesh; the counts of a patched mesh are made when a caller first asks. Thread safety: any thread.
   const MeshReport& mesh_report() const;
 

@@ -116,9 +116,13 @@ class Neighbourhood {
 
   // The triangles with a corner in the neighbourhood, ascending.
   Vector<Index> triangles_near() const {
-    const Topology& topology = plain_.topology();
+    const Topology* const topology = plain_.geometry->known_topology();
     Vector<Index> out(&memory_);
-    for (const Index v : vertices_) topology.triangles_at(v, out);
+    for (std::size_t i = 0; topology && i < vertices_.size(); ++i) topology->triangles_at(vertices_[i], out);
+    for (Index t = 0; !topology && t < plain_.mesh.triangle_count(); ++t) {
+      const Index* const v = plain_.mesh.triangle(t);
+      if (std::any_of(v, v + 3, [&](Index u) { return local_[at(u)] != Mesh::none; })) out.push_back(t);
+    }
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;

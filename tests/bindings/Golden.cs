@@ -243,11 +243,7 @@ class Scene
                             Numbers(Get(step, "removed_links")), patches ? patch : null);
                     return null;
                 }
-            case "cuts":
-                return new Result
-                {
-                    Array = surface.Cuts().SelectMany(cut => new double[] { cut.Triangle, cut.Corner, cut.Vertex, cut.Copied }).ToArray()
-                };
+            case "cuts": return surface.Cuts().SelectMany(c => new double[] { c.Triangle, c.Corner, c.Vertex, c.Copied }).ToArray();
             case "move_to":
                 {
                     var edited = (Surface)objects[(string)step["to"]];

@@ -387,11 +387,8 @@ impl Scene<'_> {
         let made = match what {
             "cuts" => {
                 let cuts = on!(self, step, Surface).cuts()?;
-                let flat = cuts
-                    .iter()
-                    .flat_map(|c| [c.triangle, c.corner, c.vertex, c.copied])
-                    .map(f64::from);
-                return Ok(Found::Array(flat.collect()));
+                let rows = cuts.iter().map(|c| [c.triangle, c.corner, c.vertex, c.copied]);
+                return array(rows.flatten().collect::<Vec<u32>>(), false);
             }
             "edit_surface" => {
                 let rows = self.doubles(step, "links").unwrap_or_default();
