@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <random>
 #include <set>
@@ -67,6 +68,11 @@ class Model {
     return out;
   }
 
+  void forget() {
+    removed_.clear();
+    added_.clear();
+    added_positions_.clear();
+  }
   // Cuts along edges.
   std::shared_ptr<const Geometry> cut(const Core& from, const std::vector<std::uint32_t>& edges) {
     const auto cuts = hf_inner::cut_edges(from.mesh, {edges.data(), edges.size()}, *from.memory);
@@ -324,6 +330,29 @@ TEST(PatchEdit, SequencesHaveTheFieldsOfFreshSurfaces) {
         if (::testing::Test::HasFatalFailure()) return;
       }
     }
+  }
+}
+
+// 10,000 edits (of 300 in the short form): the difference from fresh surfaces does not grow.
+TEST(PatchEdit, ManyEditsAddNoError) {
+  const int steps = std::getenv("HF_FULL_TESTS") ? 10000 : 300;
+  std::mt19937 random(11);
+  Model model(three_pieces());
+  std::shared_ptr<const Core> core = make(model.now());
+  for (int step = 1; step <= steps; ++step) {
+    const int kind = static_cast<int>(random() % 8);
+    std::shared_ptr<const Geometry> geometry;
+    try {
+      if (kind != 7) model.change(model.now().triangle_count() > 3000 ? 1 : kind, random, 1);
+      geometry = kind == 7 ? model.cut(*core, model.walk(random, 6)) : model.apply(*core);
+    } catch (const hf_inner::Error&) {  // an edge alone parts nothing, and two triangles may not be one
+      model.forget();
+      continue;
+    }
+    core = edit_core(core, {nullptr, geometry});
+    if (step % 100 != 0) continue;
+    const auto fresh = make(model.now());
+    EXPECT_LT(difference(field_of(core, *fresh), field_of(fresh, *fresh)), 1e-11) << step;
   }
 }
 
