@@ -103,6 +103,12 @@ void GreenSolver::solve_into(const double* values, Index channels, FieldSink& si
         }
         return;
       }
+      if (one_component && reached(0)) {
+        for (std::size_t row = begin; row < end; ++row) {
+          for (std::size_t q = 0; q < m; ++q) z[row * m + q] += answer.constant[q];
+        }
+        return;
+      }
       for (std::size_t row = begin; row < end; ++row) {
         const std::size_t c = one_component ? 0 : at(core_->mesh.component[at(order[row])]);
         for (std::size_t q = 0; q < m; ++q) {
