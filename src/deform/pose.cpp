@@ -91,6 +91,9 @@ std::shared_ptr<Pose> Pose::on(std::shared_ptr<const Core> core, std::shared_ptr
   }
   std::shared_ptr<const Layout> layout = moved->make_layout_on(handles, *layout_, *core_);
   std::shared_ptr<State> state = moved->carry_over(*layout);
+  // The groups keep their stresses too: without them a stroke that changes nothing moves the next frame.
+  if (layout->smooth && layout->smooth->subspace.group == layout_->smooth->subspace.group && !relinked)
+    state->smooth.stress = state_->smooth.stress;
   state->changed = true;
   moved->install(std::move(layout), std::move(state));
   return moved;
