@@ -33,11 +33,12 @@ void read_vertex(const BandSource& source, std::int32_t v, PieceBands& out) {
       const std::int32_t band = bands.first + a;
       open |= (band > 0 && band <= source.band_count && bands.value[a] > 0 ? 1u : 0u) << a;
     }
-    out.slot.push_back({p,
-                        static_cast<std::int16_t>(bands.first),
-                        static_cast<std::uint16_t>(open),
-                        share,
-                        {bands.value[0], bands.value[1], bands.value[2]}});
+    BandSlot& slot = out.slot.emplace_back();  // written where it lies
+    slot.part = p;
+    slot.first = static_cast<std::int16_t>(bands.first);
+    slot.open = static_cast<std::uint16_t>(open);
+    slot.share = share;
+    for (int a = 0; a < 3; ++a) slot.value[a] = bands.value[a];
   }
 }
 
@@ -46,7 +47,7 @@ std::int32_t find(std::int32_t* parent, std::int32_t x) noexcept {
   return x;
 }
 
-// Joins two bands. The smaller number becomes the root, so that results do not depend on the order.
+// Joins two sets. The smaller number becomes the root, so that results do not depend on the order.
 void join(std::int32_t* parent, std::int32_t a, std::int32_t b) noexcept {
   if (parent[a] == parent[b]) return;  // most pairs
   a = find(parent, a);
@@ -55,28 +56,61 @@ void join(std::int32_t* parent, std::int32_t a, std::int32_t b) noexcept {
   if (b < a) parent[a] = b;
 }
 
-// The union-find forest of the bands in a piece: band a of slot k has the number 4 k + a.
-constexpr std::int32_t bands_a_slot = 4;
+// Neighbouring slots of one field that have the same bands are joined as a whole, into cells: most are. Then the bands
+// of cells are joined. Band a of cell k has the number 4 k + a; a cell has the number of its first slot.
+constexpr std::int32_t bands_a_cell = 4;
 
-// Says whether all bands of two slots of one field have the same parents, as most neighbours do.
-bool joined(const BandSlot& own, const BandSlot& other, const std::int32_t* a, const std::int32_t* b) noexcept {
-  return own.first == other.first && own.open == other.open && a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
+// Two neighbouring slots of one field with other bands.
+struct Beside {
+  std::int32_t slot, other;
+};
 
-// Joins the bands at the two ends of an edge inside the piece. Both lists of slots are ascending by part.
-void join_edge(const PieceBands& bands, std::int32_t v, std::int32_t u, std::int32_t* parent) noexcept {
-  std::int32_t i = bands.start[v - bands.first], k = bands.start[u - bands.first];
-  const std::int32_t i_end = bands.start[v - bands.first + 1], k_end = bands.start[u - bands.first + 1];
-  while (i < i_end && k < k_end) {
-    const BandSlot &own = bands.slot[i], &other = bands.slot[k];
-    const std::int32_t own_band = bands_a_slot * i, other_band = bands_a_slot * k;
-    if (own.part == other.part && !joined(own, other, parent + own_band, parent + other_band))
-      for_common_bands(own, other, [&](int a, int b) { join(parent, own_band + a, other_band + b); });
-    const std::int32_t step = own.part - other.part;
-    i += step <= 0;
-    k += step >= 0;
+class Cells {
+ public:
+  Cells(const PieceBands& bands, Memory& memory)
+      : bands_(bands), key_(memory, bands.slot.size()), cell_(memory, bands.slot.size()), beside_(&memory) {
+    for (std::size_t k = 0; k < key_.size(); ++k) {
+      const BandSlot& slot = bands.slot[k];
+      key_[k] = static_cast<std::uint64_t>(static_cast<std::uint32_t>(slot.part)) << 32 |
+                static_cast<std::uint64_t>(static_cast<std::uint16_t>(slot.first)) << 16 | slot.open;
+      cell_[k] = static_cast<std::int32_t>(k);
+    }
   }
-}
+  // Joins the slots at the two ends of an edge inside the piece. Both lists of slots are ascending by part.
+  void join_edge(std::int32_t v, std::int32_t u) {
+    std::int32_t i = bands_.start[v - bands_.first], k = bands_.start[u - bands_.first];
+    const std::int32_t i_end = bands_.start[v - bands_.first + 1], k_end = bands_.start[u - bands_.first + 1];
+    while (i < i_end && k < k_end) {
+      if (key_[i] == key_[k]) {
+        join(cell_.data(), i++, k++);
+        continue;
+      }
+      const std::int32_t step = bands_.slot[i].part - bands_.slot[k].part;
+      if (step == 0) beside_.push_back({i, k});
+      i += step <= 0;
+      k += step >= 0;
+    }
+  }
+  // Joins the bands of cells. Afterwards of(k) is the cell of slot k.
+  void join_bands(Buffer<std::int32_t>& parent) noexcept {
+    for (std::size_t k = 0; k < cell_.size(); ++k) {
+      cell_[k] = cell_[cell_[k]];  // the parent is before k, and its parent is a root by now
+      for (std::size_t a = bands_a_cell * k; a < bands_a_cell * (k + 1); ++a) parent[a] = static_cast<std::int32_t>(a);
+    }
+    for (const Beside& pair : beside_) {
+      const std::int32_t own = bands_a_cell * cell_[pair.slot], other = bands_a_cell * cell_[pair.other];
+      for_common_bands(bands_.slot[pair.slot], bands_.slot[pair.other],
+                       [&](int a, int b) { join(parent.data(), own + a, other + b); });
+    }
+  }
+  std::int32_t of(std::int32_t slot) const noexcept { return cell_[slot]; }
+
+ private:
+  const PieceBands& bands_;
+  Buffer<std::uint64_t> key_;  // by slot: field, first band and open bands
+  Buffer<std::int32_t> cell_;  // by slot: a slot of its cell, at last the first
+  Vector<Beside> beside_;
+};
 
 }  // namespace
 
@@ -90,8 +124,7 @@ void read_bands(const BandSource& source, std::int32_t first, std::int32_t last,
     read_vertex(source, v, out);
     out.start.push_back(static_cast<std::int32_t>(out.slot.size()));
   }
-  Buffer<std::int32_t> parent(memory, bands_a_slot * out.slot.size());
-  for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = static_cast<std::int32_t>(k);
+  Cells cells(out, memory);
   // Neighbours are sorted, so each edge is handled once, from its larger end.
   for (std::int32_t v = first; v < last; ++v) {
     if (out.slots_of(v).empty()) continue;
@@ -99,10 +132,11 @@ void read_bands(const BandSource& source, std::int32_t first, std::int32_t last,
     const std::int32_t end = topology.neighbour_start[v + 1];
     if (k < end && topology.neighbour[k] < first) out.border.push_back(v);
     for (; k < end && topology.neighbour[k] < v; ++k) {
-      if (topology.neighbour[k] >= first) join_edge(out, v, topology.neighbour[k], parent.data());
+      if (topology.neighbour[k] >= first) cells.join_edge(v, topology.neighbour[k]);
     }
   }
-  Buffer<std::int32_t> patch_of_root(memory, parent.size());
+  Buffer<std::int32_t> parent(memory, bands_a_cell * out.slot.size()), patch_of_band(memory, parent.size());
+  cells.join_bands(parent);
   out.patch_of.assign(3 * out.slot.size(), -1);
   for (std::int32_t v = first; v < last; ++v) {
     const double area = source.rest.area[v];
@@ -110,13 +144,17 @@ void read_bands(const BandSource& source, std::int32_t first, std::int32_t last,
       const BandSlot& slot = out.slot[k];
       for (int a = 0; a < 3; ++a) {
         if (!(slot.open >> a & 1)) continue;
-        // The root is the smallest member of its patch, so the loop has met it before.
-        const std::int32_t own = bands_a_slot * k + a, root = find(parent.data(), own);
-        if (root == own) {
-          patch_of_root[own] = static_cast<std::int32_t>(out.patch.size());
-          out.patch.push_back({slot.part, slot.first + a, 0.0});
+        const std::int32_t own = bands_a_cell * cells.of(k) + a;
+        if (cells.of(k) == k) {
+          // The root is the smallest band of its patch, so the loop has met it before.
+          const std::int32_t root = find(parent.data(), own);
+          if (root == own) {
+            patch_of_band[own] = static_cast<std::int32_t>(out.patch.size());
+            out.patch.push_back({slot.part, slot.first + a, 0.0});
+          }
+          patch_of_band[own] = patch_of_band[root];
         }
-        const std::int32_t patch = out.patch_of[3 * k + a] = patch_of_root[root];
+        const std::int32_t patch = out.patch_of[3 * k + a] = patch_of_band[own];
         out.patch[patch].area += slot.share * slot.value[a] * area;
       }
     }

@@ -54,11 +54,22 @@ double largest_product(const BlendBox& box, const Affine& transform) noexcept {
 
 Vector<BlendBox> cluster_boxes(const Mesh& mesh, const ClusterWeights& weights, Memory& memory) {
   Vector<BlendBox> boxes(static_cast<std::size_t>(weights.cluster_count) + 1, nothing(), &memory);
+  const auto clusters_of = [&](std::int32_t v) {
+    return Span<const std::uint16_t>(weights.cluster.data() + weights.start[v],
+                                     static_cast<std::size_t>(weights.start[v + 1] - weights.start[v]));
+  };
+  BlendBox run = nothing();  // of vertices with the same clusters, one after the other
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3& p = mesh.positions[v];
-    const std::int32_t first = weights.start[v], last = weights.start[v + 1];
-    for (std::int32_t k = first; k < last; ++k) add(p, p, boxes[weights.cluster[k]]);
-    if (first == last) add(p, p, boxes.back());
+    add(p, p, run);
+    const Span<const std::uint16_t> own = clusters_of(v);
+    if (v + 1 < mesh.vertex_count()) {
+      const Span<const std::uint16_t> next = clusters_of(v + 1);
+      if (std::equal(own.begin(), own.end(), next.begin(), next.end())) continue;
+    }
+    for (const std::uint16_t cluster : own) add(run.low, run.high, boxes[cluster]);
+    if (own.empty()) add(run.low, run.high, boxes.back());
+    run = nothing();
   }
   for (const Mesh::Isolated& vertex : mesh.isolated) {
     const Vec3 p = mesh.to_inner(vertex.position);

@@ -110,6 +110,7 @@ struct PieceRows {
   Vector<std::int32_t> length;  // number of weights per vertex
   Vector<std::uint16_t> cluster;
   Vector<float> weight;
+  std::size_t size = 0;  // of both in use
   std::int32_t unreached = 0;
 
   // Appends a vertex's row of cluster weights that sum to 1, rounded to multiples of 2^-24. The largest weight takes
@@ -119,9 +120,12 @@ struct PieceRows {
     double left = steps;
     std::size_t largest = 0;
     for (std::size_t k = 1; k < row.size(); ++k) largest = row[k].weight > row[largest].weight ? k : largest;
-    const std::size_t first = weight.size();
-    cluster.resize(first + row.size());
-    weight.resize(first + row.size());
+    const std::size_t first = size;
+    size += row.size();
+    if (size > cluster.size()) {
+      cluster.resize(2 * size);
+      weight.resize(2 * size);
+    }
     for (std::size_t k = 0; k < row.size(); ++k) {
       const double whole = std::max(1, static_cast<std::int32_t>(steps * row[k].weight + 0.5));
       left -= whole;
@@ -139,10 +143,10 @@ void make_rows(const BandSource& source, std::int32_t first, std::int32_t last, 
   RowMaker maker(source, memory);
   const std::size_t room = static_cast<std::size_t>(last - first) + (source.degree + 1) * bands.slot.size();
   out.length.reserve(static_cast<std::size_t>(last - first));
-  out.cluster.reserve(room);
-  out.weight.reserve(room);
+  out.cluster.resize(room);
+  out.weight.resize(room);
   for (std::int32_t v = first; v < last; ++v) {
-    const std::size_t before = out.cluster.size();
+    const std::size_t before = out.size;
     const Span<const std::int32_t> present = source.reach.handles_of(source.core.mesh.component[v]);
     const std::int32_t owner = source.reach.owner[v];
     if (present.empty()) {
@@ -154,7 +158,7 @@ void make_rows(const BandSource& source, std::int32_t first, std::int32_t last, 
     } else {
       out.append(maker.by_fields(v));
     }
-    out.length.push_back(static_cast<std::int32_t>(out.cluster.size() - before));
+    out.length.push_back(static_cast<std::int32_t>(out.size - before));
   }
 }
 
@@ -180,8 +184,8 @@ void write_rows(const BandSource& source, const Vector<PieceBands>& pieces,
   out.weight.resize(out.start[n]);
   for_vertex_pieces(jobs, n, [&](std::int32_t first, std::int32_t) {
     const PieceRows& own = rows[first / vertex_piece];
-    std::copy(own.cluster.begin(), own.cluster.end(), out.cluster.begin() + out.start[first]);
-    std::copy(own.weight.begin(), own.weight.end(), out.weight.begin() + out.start[first]);
+    std::copy_n(own.cluster.begin(), own.size, out.cluster.begin() + out.start[first]);
+    std::copy_n(own.weight.begin(), own.size, out.weight.begin() + out.start[first]);
   });
   for (const PieceRows& own : rows) out.unreached_vertex_count += own.unreached;
 }

@@ -150,6 +150,9 @@ constexpr std::uint32_t count_shares = 8;
 // One thread's job sums this many edges of the elastic energy: smaller jobs cost more to start, larger ones leave
 // threads idle. The size is fixed, so that sums keep their order. Half and double change no bit of twelve poses.
 constexpr std::int32_t edge_piece = 16384;
+// Most edges whose sums are taken together, where the clusters are the same: more take room in the first-level cache.
+// No result depends on it: every sum keeps the order of edges.
+constexpr std::int32_t longest_run = 16;
 
 // ---- rest.cpp, rest.h ----
 
@@ -191,7 +194,7 @@ constexpr double area_growth = 4;
 constexpr std::int32_t free_cluster_target = 480, free_cluster_limit = 768;
 // Room for the fields that count at a vertex at first. It trades memory for one more copy of the list. No result
 // depends on it.
-constexpr std::size_t slots_a_vertex = 2;
+constexpr std::size_t slots_a_vertex = 3;
 // A vertex drops its weights in clusters that are below this share of their norm. Halving or doubling it changes
 // elastic energies by 0.2 %.
 constexpr double weight_prune = 1e-3;

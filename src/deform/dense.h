@@ -29,6 +29,7 @@ class DenseFactor {
 
  private:
   void solve_sides(int sides, double* x) const noexcept;
+  void finish_row(double* lower, std::size_t stride, std::size_t first, std::size_t i, double square) noexcept;
 
   std::int32_t size_ = 0;
   std::int32_t dropped_ = 0;

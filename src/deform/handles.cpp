@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "deform/constants.h"
@@ -59,6 +60,13 @@ void finish_vertex(std::int32_t v, const double* solved, std::int32_t channels, 
   }
   double sum = 0, others = 0;
   for (std::int32_t i = 0; i < channels; ++i) others += solved[i];
+  if (present.size() == static_cast<std::size_t>(handle_count)) {  // most: all handles are on one component
+    for (std::int32_t i = 0; i < channels; ++i) sum += out[i] = std::clamp(solved[i], 0.0, 1.0);
+    if (channels < handle_count) sum += out[channels] = std::clamp(1.0 - others, 0.0, 1.0);
+    const double whole = sum > 0 ? sum : static_cast<double>(handle_count);
+    for (std::int32_t i = 0; i < handle_count; ++i) out[i] = sum > 0 ? out[i] / whole : 1.0 / whole;
+    return;
+  }
   for (const std::int32_t i : present) {
     const double value = std::clamp(i < channels ? solved[i] : 1.0 - others, 0.0, 1.0);
     out[i] = value;
@@ -254,45 +262,94 @@ void set_handle_sites(const Core& core, SiteSolver& solver, const Handles& befor
   solver.edit(edit);
 }
 
-HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
-                                 Memory& memory) {
-  const std::int32_t n = core.size(), handle_count = static_cast<std::int32_t>(handles.size());
-  HandleFields fields(n, handle_count, memory);
-  const std::int32_t channels = solved_channels(handles.size());
-  const std::size_t width = static_cast<std::size_t>(channels);
-  bool any_site = false;
-  for (const Handle& handle : handles) any_site = any_site || !handle.region->sites.empty();
-  Workspace solved(core.workspaces, width * static_cast<std::size_t>(n));
-  if (any_site) {
-    Vector<double> values(width * static_cast<std::size_t>(solver.slot_count()), 0.0, &memory);
-    std::size_t slot = 0;
-    for (std::int32_t i = 0; i < channels; ++i) {
-      for (std::size_t k = 0; k < handles[i].region->sites.size(); ++k, ++slot)
-        values[width * slot + static_cast<std::size_t>(i)] = 1;
-    }
-    solver.solve(values.data(), channels, solved.data(), nullptr);
-  } else {
-    std::fill(solved.data(), solved.data() + width * static_cast<std::size_t>(n), 0.0);
+namespace {
+
+// The solved channels by vertex, in the order of the factor where `row` is given.
+struct Solved {
+  const double* z;
+  const std::int32_t* row;
+  std::size_t width;
+  const double* at(std::int32_t v) const noexcept { return z + width * static_cast<std::size_t>(row ? row[v] : v); }
+};
+
+// Makes fields of solved channels.
+class FieldFinish final : public FieldSink {
+ public:
+  FieldFinish(const Core& core, const SiteSolver& solver, const Handles& handles, const Reach& reach,
+              std::int32_t channels, HandleFields& fields)
+      : core_(core), solver_(solver), handles_(handles), reach_(reach), channels_(channels), fields_(fields) {}
+
+  // A block that has all channels is read where it lies. Others are gathered first.
+  void take(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) override {
+    if (count == channels_) return finish({z, row, static_cast<std::size_t>(count)});
+    const std::size_t width = static_cast<std::size_t>(channels_), block = static_cast<std::size_t>(count);
+    if (!all_) all_.emplace(core_.workspaces, width * static_cast<std::size_t>(core_.size()));
+    for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t from, std::int32_t to) {
+      const Solved solved{z, row, block};
+      for (std::int32_t v = from; v < to; ++v)
+        std::copy_n(solved.at(v), block, all_->data() + width * static_cast<std::size_t>(v) + first);
+    });
+    if (first + count == channels_) finish({all_->data(), nullptr, width});
   }
+  void finish(const Solved& solved) {
+    measure_leak(solved);
+    for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
+      for (std::int32_t v = first; v < last; ++v)
+        finish_vertex(v, solved.at(v), channels_, reach_.owner[v], reach_.handles_of(core_.mesh.component[v]), fields_);
+    });
+  }
+
+ private:
   // The leak is the error of the fields on the handles' regions, where some ring vertices are no sites. It is measured
   // before any correction, in all components that have sites.
-  for (std::int32_t owner = 0; owner < handle_count; ++owner) {
-    for (const std::int32_t v : handles[owner].region->vertices) {
-      if (solver.site_count(core.mesh.component[v]) == 0) continue;
-      const double* u = solved.data() + width * static_cast<std::size_t>(v);
-      double others = 0;
-      for (std::int32_t i = 0; i < handle_count; ++i) {
-        const double value = i < channels ? u[i] : 1.0 - others;
-        others += value;
-        fields.leak[i] = std::max(fields.leak[i], std::fabs(value - (i == owner ? 1.0 : 0.0)));
+  void measure_leak(const Solved& solved) {
+    const std::int32_t handle_count = static_cast<std::int32_t>(handles_.size());
+    for (std::int32_t owner = 0; owner < handle_count; ++owner) {
+      for (const std::int32_t v : handles_[owner].region->vertices) {
+        if (solver_.site_count(core_.mesh.component[v]) == 0) continue;
+        const double* u = solved.at(v);
+        double others = 0;
+        for (std::int32_t i = 0; i < handle_count; ++i) {
+          const double value = i < channels_ ? u[i] : 1.0 - others;
+          others += value;
+          fields_.leak[i] = std::max(fields_.leak[i], std::fabs(value - (i == owner ? 1.0 : 0.0)));
+        }
       }
     }
   }
-  for_vertex_pieces(*core.jobs, n, [&](std::int32_t first, std::int32_t last) {
-    for (std::int32_t v = first; v < last; ++v)
-      finish_vertex(v, solved.data() + width * static_cast<std::size_t>(v), channels, reach.owner[v],
-                    reach.handles_of(core.mesh.component[v]), fields);
-  });
+
+  const Core& core_;
+  const SiteSolver& solver_;
+  const Handles& handles_;
+  const Reach& reach_;
+  std::int32_t channels_;
+  HandleFields& fields_;
+  std::optional<Workspace> all_;
+};
+
+}  // namespace
+
+HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
+                                 Memory& memory) {
+  const std::int32_t n = core.size(), channels = solved_channels(handles.size());
+  HandleFields fields(n, static_cast<std::int32_t>(handles.size()), memory);
+  const std::size_t width = static_cast<std::size_t>(channels);
+  FieldFinish finish(core, solver, handles, reach, channels, fields);
+  bool any_site = false;
+  for (const Handle& handle : handles) any_site = any_site || !handle.region->sites.empty();
+  if (!any_site) {
+    Workspace zeros(core.workspaces, width * static_cast<std::size_t>(n));
+    std::fill_n(zeros.data(), width * static_cast<std::size_t>(n), 0.0);
+    finish.finish({zeros.data(), nullptr, width});
+    return fields;
+  }
+  Vector<double> values(width * static_cast<std::size_t>(solver.slot_count()), 0.0, &memory);
+  std::size_t slot = 0;
+  for (std::int32_t i = 0; i < channels; ++i) {
+    for (std::size_t k = 0; k < handles[i].region->sites.size(); ++k, ++slot)
+      values[width * slot + static_cast<std::size_t>(i)] = 1;
+  }
+  solver.solve_into(values.data(), channels, finish);
   return fields;
 }
 

@@ -68,11 +68,16 @@ std::shared_ptr<Pose> Pose::clone() const {
   return copy;
 }
 
-std::shared_ptr<Pose> Pose::on(std::shared_ptr<const Core> core) const {
+std::shared_ptr<const Rest> Pose::rest_on(const Core& core) const {
+  if (core.geometry != core_->geometry) return make_shared_in<Rest>(memory(), core, memory());
+  return make_shared_in<Rest>(memory(), rest_->shape, core, memory());
+}
+
+std::shared_ptr<Pose> Pose::on(std::shared_ptr<const Core> core, std::shared_ptr<const Rest> rest) const {
   ensure_surface();
   auto moved = clone();
   moved->core_ = core;
-  moved->rest_ = make_shared_in<Rest>(memory(), *core, memory());
+  moved->rest_ = std::move(rest);
   moved->previous_layout_.reset();
   moved->previous_state_.reset();
   const bool relinked = core->geometry != core_->geometry;
@@ -84,9 +89,11 @@ std::shared_ptr<Pose> Pose::on(std::shared_ptr<const Core> core) const {
     handles.push_back(
         {handle.number, relinked ? make_region(*core, region->vertices, options_.rim_site_count, memory()) : region});
   }
-  const Handles none(&memory());
-  std::shared_ptr<const Layout> layout = moved->make_layout(handles, layout_->sites->on(core), none);
+  std::shared_ptr<const Layout> layout = moved->make_layout_on(handles, *layout_, *core_);
   std::shared_ptr<State> state = moved->carry_over(*layout);
+  // The groups keep their stresses too: without them a stroke that changes nothing moves the next frame.
+  if (layout->smooth && layout->smooth->subspace.group == layout_->smooth->subspace.group && !relinked)
+    state->smooth.stress = state_->smooth.stress;
   state->changed = true;
   moved->install(std::move(layout), std::move(state));
   return moved;
@@ -266,9 +273,32 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) co
   return make_layout(handles, SiteSolver::make(core_), Handles(&memory()));
 }
 
+// Makes the layout of a pose that comes from another core. Both engines take the elimination paths and the dense system
+// of an engine on the core whose factor they extend. Such an engine is kept for the next move: strokes of a brush all
+// have the same.
+std::shared_ptr<const Pose::Layout> Pose::make_layout_on(const Handles& handles, const Layout& before,
+                                                         const Core& from) const {
+  const Handles none(&memory());
+  std::shared_ptr<SiteSolver> plain;
+  if (core_->factored && core_->factored->geometry == core_->geometry) {
+    const bool same = from.geometry == core_->geometry;
+    if (same && &from == core_->factored.get()) {
+      plain = before.sites;
+    } else if (same && before.plain_sites && from.factored == core_->factored) {
+      plain = before.plain_sites;
+    } else {
+      plain = before.sites->on(core_->factored);
+      set_handle_sites(*core_->factored, *plain, none, handles, memory());
+    }
+  }
+  return make_layout(handles, (plain ? *plain : *before.sites).on(core_), none, plain);
+}
+
 std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
-                                                      const Handles& present) const {
+                                                      const Handles& present,
+                                                      std::shared_ptr<SiteSolver> plain_sites) const {
   auto layout = make_shared_in<Layout>(memory(), handles, std::move(sites), *core_, memory());
+  layout->plain_sites = std::move(plain_sites);
   const auto solve = [&] {
     set_handle_sites(*core_, *layout->sites, present, layout->handles, memory());
     layout->fields = solve_handle_fields(*core_, *layout->sites, layout->handles, layout->reach, memory());

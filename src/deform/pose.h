@@ -142,8 +142,9 @@ class Pose {
   // Throws for regions that add_handles would refuse.
   void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
 
-  // Returns this pose on another core of the same geometry, with its handles and their transforms.
-  std::shared_ptr<Pose> on(std::shared_ptr<const Core> core) const;
+  // Returns this pose on another core of the same mesh, with its handles and their transforms. rest: of that core.
+  std::shared_ptr<Pose> on(std::shared_ptr<const Core> core, std::shared_ptr<const Rest> rest) const;
+  std::shared_ptr<const Rest> rest_on(const Core& core) const;
 
   // ---- for layers of handles (pose_stack.h), whose poses must depend only on the arguments of these calls ----
 
@@ -232,7 +233,9 @@ class Pose {
   std::shared_ptr<const Groups> meet(const Layout& layout) const;
   // sites: an engine that holds the handles of `present`.
   std::shared_ptr<const Layout> make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
-                                            const Handles& present) const;
+                                            const Handles& present,
+                                            std::shared_ptr<SiteSolver> plain_sites = nullptr) const;
+  std::shared_ptr<const Layout> make_layout_on(const Handles& handles, const Layout& before, const Core& from) const;
   std::shared_ptr<const Layout> make_layout(const Handles& handles) const;
   // Returns a state for `layout` (handles and the clusters they make). Handles and clusters of the present state keep
   // their motions, so the surface does not jump.

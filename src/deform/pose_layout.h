@@ -14,6 +14,7 @@ struct Pose::Layout {
         boxes(&memory) {}
   Handles handles;
   std::shared_ptr<SiteSolver> sites;
+  std::shared_ptr<SiteSolver> plain_sites;  // the same on the core whose factor this core extends; null: not made yet
   Reach reach;
   HandleFields fields;
   ClusterWeights weights;

@@ -29,10 +29,11 @@ std::shared_ptr<PoseStack> PoseStack::clone() const {
 }
 
 void PoseStack::move_to(std::shared_ptr<const Core> core) {
-  std::shared_ptr<Pose> base = base_->on(core);
+  const std::shared_ptr<const Rest> rest = base_->rest_on(*core);
+  std::shared_ptr<Pose> base = base_->on(core, rest);
   std::array<std::shared_ptr<Layer>, layer_limit> layers;
   for (std::uint32_t k = 1; k < layer_limit; ++k) {
-    if (layers_[k]) layers[k] = make_layer(layers_[k]->plain->on(core));
+    if (layers_[k]) layers[k] = make_layer(layers_[k]->plain->on(core, rest));
   }
   base_ = std::move(base);
   layers_ = std::move(layers);

@@ -5,7 +5,7 @@
 namespace hf_inner {
 namespace {
 
-void sort_components(const Mesh& mesh, Rest& rest) {
+void sort_components(const Mesh& mesh, RestShape& rest) {
   const std::int32_t n = mesh.vertex_count(), components = mesh.component_count();
   rest.component_start.assign(components + 1, 0);
   rest.component_vertex.resize(n);
@@ -20,7 +20,7 @@ void sort_components(const Mesh& mesh, Rest& rest) {
     ++rest.component_triangles[mesh.component[mesh.triangle(t)[0]]];
 }
 
-void list_triangles_by_piece(const Mesh& mesh, Rest& rest) {
+void list_triangles_by_piece(const Mesh& mesh, RestShape& rest) {
   const std::int32_t pieces = (mesh.vertex_count() + vertex_piece - 1) / vertex_piece;
   const auto for_entries = [&](bool border, auto&& use) {
     for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -46,7 +46,7 @@ void list_triangles_by_piece(const Mesh& mesh, Rest& rest) {
   }
 }
 
-void list_faces(const Mesh& mesh, Rest& rest) {
+void list_faces(const Mesh& mesh, RestShape& rest) {
   if (mesh.faces.empty()) return;
   const std::size_t n = mesh.positions.size();
   rest.face_start.assign(n + 1, 0);
@@ -59,7 +59,7 @@ void list_faces(const Mesh& mesh, Rest& rest) {
   }
 }
 
-void sample_triangles(const Mesh& mesh, Rest& rest) {
+void sample_triangles(const Mesh& mesh, RestShape& rest) {
   std::uint32_t share = 0;
   const std::int64_t count = mesh.triangle_count();
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -79,7 +79,7 @@ void sample_triangles(const Mesh& mesh, Rest& rest) {
 
 }  // namespace
 
-Rest::Rest(const Core& core, Memory& memory)
+RestShape::RestShape(const Core& core, Memory& memory)
     : component_start(&memory),
       component_vertex(&memory),
       component_triangles(&memory),
@@ -91,7 +91,7 @@ Rest::Rest(const Core& core, Memory& memory)
       face_start(&memory),
       face(&memory),
       sampled(&memory),
-      stiffness(core.weights().begin(), core.weights().end(), &memory) {
+      edge_weight(core.weights().begin(), core.weights().end(), &memory) {
   core.jobs->for_each(2, [&](std::uint32_t half) {
     if (half == 0) {
       list_triangles_by_piece(core.mesh, *this);
@@ -99,14 +99,37 @@ Rest::Rest(const Core& core, Memory& memory)
     } else {
       sort_components(core.mesh, *this);
       sample_triangles(core.mesh, *this);
-      for (double& w : stiffness) w = std::clamp(w, least_edge_weight, largest_edge_weight);
-      for (std::int32_t e = 0; core.stiffness && e < core.topology().edge_count(); ++e) {
-        const double s =
-            edge_stiffness((*core.stiffness)[core.topology().first(e)], (*core.stiffness)[core.topology().second(e)]);
-        stiffness[e] *= std::clamp(s, 1 / largest_energy_stiffness, largest_energy_stiffness);
-      }
+      for (double& w : edge_weight) w = std::clamp(w, least_edge_weight, largest_edge_weight);
     }
   });
+}
+
+Rest::Rest(std::shared_ptr<const RestShape> of, const Core& core, Memory& memory)
+    : shape(std::move(of)),
+      component_start(shape->component_start),
+      component_vertex(shape->component_vertex),
+      component_triangles(shape->component_triangles),
+      component_area(shape->component_area),
+      area(shape->area),
+      piece_start(shape->piece_start),
+      piece_border(shape->piece_border),
+      piece_corner(shape->piece_corner),
+      face_start(shape->face_start),
+      face(shape->face),
+      sampled(shape->sampled),
+      sampled_start(shape->sampled_start, histogram_shares + 1),
+      stiffness(shape->edge_weight, &memory) {
+  if (!core.stiffness) return;
+  const Topology& topology = core.topology();
+  const Vector<double>& given = *core.stiffness;
+  for (std::int32_t v = 0; v < core.size(); ++v) {
+    if (given[v] == 1) continue;
+    for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
+      const std::int32_t e = topology.neighbour_edge[k];  // one with two stiff ends comes twice
+      const double s = edge_stiffness(given[topology.first(e)], given[topology.second(e)]);
+      stiffness[e] = shape->edge_weight[e] * std::clamp(s, 1 / largest_energy_stiffness, largest_energy_stiffness);
+    }
+  }
 }
 
 }  // namespace hf_inner

@@ -1,16 +1,19 @@
 // The rest shape as poses need it: vertex areas, vertices by component, triangles by piece of vertices, edge stiffness.
 //
-// Made once per pose and shared by its clones. Cost: O(n). A failed call changes nothing.
+// Made once per pose and shared by its clones. A pose on an edited surface shares all but the stiffness. Cost: O(n). A
+// failed call changes nothing.
 #pragma once
 #include <cstdint>
+#include <memory>
 
 #include "deform/constants.h"
 #include "engine/core.h"
 
 namespace hf_inner {
 
-struct Rest {
-  Rest(const Core& core, Memory& memory);
+// The part that depends on the geometry alone.
+struct RestShape {
+  RestShape(const Core& core, Memory& memory);
 
   // The vertices of component c are component_vertex[component_start[c] .. component_start[c + 1]), ascending.
   Vector<std::int32_t> component_start;
@@ -33,15 +36,32 @@ struct Rest {
   };
   Vector<SampledTriangle> sampled;
   std::int32_t sampled_start[histogram_shares + 1];  // cut into jobs at fixed triangles
-  // Edge weights of the elastic energy: the operator's, clamped to [least_edge_weight, largest_edge_weight]. Negative
+  // Edge weights of the operator without stiffness, clamped to [least_edge_weight, largest_edge_weight]. Negative
   // weights would reward collapse, and huge ones come from triangles without area.
-  Vector<double> stiffness;
+  Vector<double> edge_weight;
 
   Span<const std::int32_t> vertices_of(std::int32_t component) const noexcept {
     const auto first = static_cast<std::size_t>(component_start[component]),
                last = static_cast<std::size_t>(component_start[component + 1]);
     return {component_vertex.data() + first, last - first};
   }
+};
+
+struct Rest {
+  using SampledTriangle = RestShape::SampledTriangle;
+  Rest(const Core& core, Memory& memory) : Rest(make_shared_in<RestShape>(memory, core, memory), core, memory) {}
+  // shape: of the core's geometry.
+  Rest(std::shared_ptr<const RestShape> shape, const Core& core, Memory& memory);
+
+  std::shared_ptr<const RestShape> shape;
+  Span<const std::int32_t> component_start, component_vertex, component_triangles;  // this and the next: of the shape
+  Span<const double> component_area, area;
+  Span<const std::int32_t> piece_start, piece_border, piece_corner, face_start, face;
+  Span<const SampledTriangle> sampled;
+  Span<const std::int32_t> sampled_start;
+  Vector<double> stiffness;  // edge weights of the elastic energy: the shape's, times the stiffness of the surface
+
+  Span<const std::int32_t> vertices_of(std::int32_t component) const noexcept { return shape->vertices_of(component); }
 };
 
 // Cuts the numbers 0 .. count into pieces of vertex_piece numbers, and calls loop(first, last) for each piece on

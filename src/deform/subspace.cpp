@@ -21,46 +21,84 @@ struct BlendRows {
 // Compiled to two halves without AVX.
 HF_VECTOR(Four, double, 4);
 
-// The vectors z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) of one edge e = (i, j), clusters c ascending. W are the cluster
-// weights, p the rest positions. It has room for the weights of both ends.
-struct EdgeRow {
-  struct Z {
-    double x[4];
-  };
-  std::int32_t count = 0;
-  std::int32_t* cluster;
-  Z* z;
-};
-
-inline void fill_row(const BlendRows& rows, std::int32_t i, std::int32_t j, EdgeRow& row) noexcept {
-  const Vec3 p = rows.positions[i], q = rows.positions[j];
-  const double pi[4] = {p.x, p.y, p.z, 1}, pj[4] = {q.x, q.y, q.z, 1};
-  std::int32_t a = rows.start[i], b = rows.start[j];
-  const std::int32_t a_end = rows.start[i + 1], b_end = rows.start[j + 1], length = a_end - a;
-  row.count = 0;
-  if (b_end - b == length && std::equal(rows.cluster + a, rows.cluster + a_end, rows.cluster + b)) {  // most edges
-    for (; row.count < length; ++row.count) {
-      const double wa = rows.weight[a + row.count], wb = rows.weight[b + row.count];
-      row.cluster[row.count] = rows.cluster[a + row.count];
-      for (int k = 0; k < 4; ++k) row.z[row.count].x[k] = wa * pi[k] - wb * pj[k];
-    }
-    return;
-  }
-  while (a < a_end || b < b_end) {
-    const std::int32_t ca = a < a_end ? rows.cluster[a] : 0x7fffffff, cb = b < b_end ? rows.cluster[b] : 0x7fffffff;
-    const double wa = ca <= cb ? rows.weight[a] : 0.0, wb = cb <= ca ? rows.weight[b] : 0.0;
-    row.cluster[row.count] = std::min(ca, cb);
-    for (int k = 0; k < 4; ++k) row.z[row.count].x[k] = wa * pi[k] - wb * pj[k];
-    ++row.count;
-    a += ca <= cb;
-    b += cb <= ca;
-  }
-}
-
 // An edge i - j that the elastic energy uses, with its weight w_e.
 struct Sample {
   std::int32_t i, j;
   double weight;
+};
+
+// Some edges, one after the other, with the same clusters at their ends: most neighbours have them. Their sums go to
+// the same places, which are read and written once.
+struct EdgeRun {
+  const Sample* sample;  // the first edge
+  std::int32_t edges, width;
+  const std::uint16_t* cluster;  // [width] ascending
+  const double* z;  // [edges][width][4] z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1). W are the weights, p the rest positions
+};
+
+// Cuts edges into runs.
+class RunReader {
+ public:
+  // widest: the most clusters of a vertex.
+  RunReader(const BlendRows& rows, std::int32_t widest, Memory& memory)
+      : rows_(rows),
+        merged_(memory, 2 * static_cast<std::size_t>(widest)),
+        cluster_(memory, merged_.size()),
+        z_(memory, 4 * (longest_run + 1) * merged_.size()) {}
+
+  template <class Use>
+  void read(const Sample* samples, std::size_t count, Use&& use) noexcept {
+    EdgeRun run{samples, 0, 0, cluster_.data(), z_.data()};
+    for (std::size_t e = 0; e < count; ++e) {
+      const std::size_t used = 4 * static_cast<std::size_t>(run.edges) * static_cast<std::size_t>(run.width);
+      double* const own = z_.data() + used;
+      const Span<const std::uint16_t> clusters = fill(samples[e].i, samples[e].j, own);
+      const bool joins = run.edges > 0 && run.edges < longest_run &&
+                         clusters.size() == static_cast<std::size_t>(run.width) &&
+                         std::equal(clusters.begin(), clusters.end(), cluster_.data());
+      if (!joins) {
+        if (run.edges > 0) use(run);
+        run.sample = samples + e;
+        run.edges = 0;
+        run.width = static_cast<std::int32_t>(clusters.size());
+        std::copy(clusters.begin(), clusters.end(), cluster_.data());
+        std::copy_n(own, 4 * clusters.size(), z_.data());
+      }
+      ++run.edges;
+    }
+    if (run.edges > 0) use(run);
+  }
+
+ private:
+  // Writes the vectors z of an edge, and returns its clusters.
+  Span<const std::uint16_t> fill(std::int32_t i, std::int32_t j, double* z) noexcept {
+    const Vec3 p = rows_.positions[i], q = rows_.positions[j];
+    const double pi[4] = {p.x, p.y, p.z, 1}, pj[4] = {q.x, q.y, q.z, 1};
+    std::int32_t a = rows_.start[i], b = rows_.start[j];
+    const std::int32_t a_end = rows_.start[i + 1], b_end = rows_.start[j + 1], length = a_end - a;
+    const std::uint16_t* const own = rows_.cluster + a;
+    if (b_end - b == length && std::equal(own, own + length, rows_.cluster + b)) {  // most edges
+      for (std::int32_t r = 0; r < length; ++r) {
+        const double wa = rows_.weight[a + r], wb = rows_.weight[b + r];
+        for (int k = 0; k < 4; ++k) z[4 * r + k] = wa * pi[k] - wb * pj[k];
+      }
+      return {own, static_cast<std::size_t>(length)};
+    }
+    std::size_t width = 0;
+    for (; a < a_end || b < b_end; ++width) {
+      const std::int32_t ca = a < a_end ? rows_.cluster[a] : 0x7fffffff, cb = b < b_end ? rows_.cluster[b] : 0x7fffffff;
+      const double wa = ca <= cb ? rows_.weight[a] : 0.0, wb = cb <= ca ? rows_.weight[b] : 0.0;
+      merged_[width] = static_cast<std::uint16_t>(std::min(ca, cb));
+      for (std::size_t k = 0; k < 4; ++k) z[4 * width + k] = wa * pi[k] - wb * pj[k];
+      a += ca <= cb;
+      b += cb <= ca;
+    }
+    return {merged_.data(), width};
+  }
+
+  BlendRows rows_;
+  Buffer<std::uint16_t> merged_, cluster_;
+  Buffer<double> z_;  // of the run, and of one edge more
 };
 
 // The 4 x 4 blocks of the system matrix. Each cluster that is no handle has one row of blocks in lower and coupling, a
@@ -70,34 +108,42 @@ struct Blocks {
   std::size_t handles, free;
 };
 
-// Adds the 4 x 4 matrices L_cd (subspace.h) of every edge. They couple each cluster c with itself and the clusters
-// before it. Handles come first.
+// Adds the 4 x 4 matrices L_cd (subspace.h) of the edges of a run. They couple each cluster c with itself and the
+// clusters before it. Handles come first.
 HF_FOUR_LANES
-void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count, EdgeRow row,
-                const Blocks& out) noexcept {
+void add_blocks(const EdgeRun& run, const Blocks& out) noexcept {
   const std::size_t handle_stride = 4 * out.handles, free_stride = 4 * out.free;
-  for (std::size_t e = 0; e < count; ++e) {
-    fill_row(rows, samples[e].i, samples[e].j, row);
-    for (std::int32_t r = 0; r < row.count; ++r) {
-      const std::size_t own = static_cast<std::size_t>(row.cluster[r]);
-      double* const handle_rows = own < out.handles ? out.between + 4 * own * handle_stride
-                                                    : out.coupling + 4 * (own - out.handles) * handle_stride;
-      double wz[4];
-      for (int a = 0; a < 4; ++a) wz[a] = samples[e].weight * row.z[r].x[a];
-      for (std::int32_t s = 0; s <= r; ++s) {
-        const std::size_t c = static_cast<std::size_t>(row.cluster[s]);
-        const bool handle = c < out.handles;
-        const std::size_t stride = handle ? handle_stride : free_stride;
-        double* block =
-            handle ? handle_rows + 4 * c : out.lower + 4 * (c - out.handles) + 4 * (own - out.handles) * stride;
-        Four z, line;
-        std::memcpy(&z, row.z[s].x, sizeof z);
-        for (std::size_t a = 0; a < 4; ++a) {
-          std::memcpy(&line, block + a * stride, sizeof line);
-          line += wz[a] * z;
-          std::memcpy(block + a * stride, &line, sizeof line);
-        }
+  const std::size_t width = static_cast<std::size_t>(run.width), edges = static_cast<std::size_t>(run.edges);
+  double wz[longest_run][4];
+  for (std::size_t r = 0; r < width; ++r) {
+    const std::size_t own = run.cluster[r];
+    double* const handle_rows = own < out.handles ? out.between + 4 * own * handle_stride
+                                                  : out.coupling + 4 * (own - out.handles) * handle_stride;
+    for (std::size_t e = 0; e < edges; ++e) {
+      for (std::size_t a = 0; a < 4; ++a) wz[e][a] = run.sample[e].weight * run.z[4 * (width * e + r) + a];
+    }
+    for (std::size_t s = 0; s <= r; ++s) {
+      const std::size_t c = run.cluster[s];
+      const bool handle = c < out.handles;
+      const std::size_t stride = handle ? handle_stride : free_stride;
+      double* const block =
+          handle ? handle_rows + 4 * c : out.lower + 4 * (c - out.handles) + 4 * (own - out.handles) * stride;
+      Four z, line0, line1, line2, line3;  // an array of them would not stay in registers
+      std::memcpy(&line0, block, sizeof z);
+      std::memcpy(&line1, block + stride, sizeof z);
+      std::memcpy(&line2, block + 2 * stride, sizeof z);
+      std::memcpy(&line3, block + 3 * stride, sizeof z);
+      for (std::size_t e = 0; e < edges; ++e) {
+        std::memcpy(&z, run.z + 4 * (width * e + s), sizeof z);
+        line0 += wz[e][0] * z;
+        line1 += wz[e][1] * z;
+        line2 += wz[e][2] * z;
+        line3 += wz[e][3] * z;
       }
+      std::memcpy(block, &line0, sizeof z);
+      std::memcpy(block + stride, &line1, sizeof z);
+      std::memcpy(block + 2 * stride, &line2, sizeof z);
+      std::memcpy(block + 3 * stride, &line3, sizeof z);
     }
   }
 }
@@ -112,29 +158,36 @@ struct Moments {
 };
 
 HF_FOUR_LANES
-void add_moments(const BlendRows& rows, const Sample* samples, std::size_t count, EdgeRow row,
-                 const Moments& out) noexcept {
-  for (std::size_t e = 0; e < count; ++e) {
-    const std::int32_t i = samples[e].i, j = samples[e].j;
-    fill_row(rows, i, j, row);
-    const Vec3 d = rows.positions[i] - rows.positions[j];
-    const Four step = {d.x, d.y, d.z, 0};
-    const std::int32_t gi = out.group_of[i], gj = out.group_of[j];
-    const double w = (gi == gj ? 1.0 : 0.5) * samples[e].weight;
+void add_moments(const EdgeRun& run, const Vec3* positions, const Moments& out) noexcept {
+  const std::size_t width = static_cast<std::size_t>(run.width), edges = static_cast<std::size_t>(run.edges);
+  Four step[longest_run];
+  for (std::size_t e = 0; e < edges; ++e) {
+    const Vec3 d = positions[run.sample[e].i] - positions[run.sample[e].j];
+    step[e] = Four{d.x, d.y, d.z, 0};
+  }
+  for (std::size_t first = 0, last; first < edges; first = last) {
+    // edges between the same two groups
+    const std::int32_t gi = out.group_of[run.sample[first].i], gj = out.group_of[run.sample[first].j];
+    for (last = first + 1; last < edges; ++last) {
+      if (out.group_of[run.sample[last].i] != gi || out.group_of[run.sample[last].j] != gj) break;
+    }
+    const double share = gi == gj ? 1.0 : 0.5;
     const std::int32_t *entry_i = out.entry_of + out.row_of_group[gi], *entry_j = out.entry_of + out.row_of_group[gj];
-    for (std::int32_t r = 0; r < row.count; ++r) {
-      double* const q = out.wide + 16 * static_cast<std::size_t>(entry_i[row.cluster[r]]);
-      double* const other = out.wide + 16 * static_cast<std::size_t>(entry_j[row.cluster[r]]);
+    for (std::size_t r = 0; r < width; ++r) {
+      double* const q = out.wide + 16 * static_cast<std::size_t>(entry_i[run.cluster[r]]);
+      double* const other = out.wide + 16 * static_cast<std::size_t>(entry_j[run.cluster[r]]);
       for (std::size_t a = 0; a < 4; ++a) {
-        const Four term = (w * row.z[r].x[a]) * step;
-        Four line;
+        Four line, beside;
         std::memcpy(&line, q + 4 * a, sizeof line);
-        line += term;
+        std::memcpy(&beside, other + 4 * a, sizeof beside);
+        for (std::size_t e = first; e < last; ++e) {
+          const double w = share * run.sample[e].weight;
+          const Four term = (w * run.z[4 * (width * e + r) + a]) * step[e];
+          line += term;
+          beside += term;
+        }
         std::memcpy(q + 4 * a, &line, sizeof line);
-        if (gi == gj) continue;
-        std::memcpy(&line, other + 4 * a, sizeof line);
-        line += term;
-        std::memcpy(other + 4 * a, &line, sizeof line);
+        if (gi != gj) std::memcpy(other + 4 * a, &beside, sizeof beside);
       }
     }
   }
@@ -171,16 +224,17 @@ class Assembly {
     std::fill(out_.between.begin(), out_.between.end(), 0.0);
     list_uses();
     list_samples();
-    // The sums of L (couples clusters) and Q (couples clusters with rotation groups) use the same edges, each in its
-    // own order. So one or two threads give the same bits.
-    core_.jobs->for_each(2, [&](std::uint32_t half) {
-      if (half == 0) {
-        sum_blocks();
-      } else {
-        sum_moments();
-        add_areas();
-      }
-    });
+    // The sums of L (couples clusters) and Q (couples clusters with rotation groups) use the same edges in the same
+    // order. So one or two threads give the same bits.
+    Buffer<double> wide(memory_, 16 * out_.entry.size());
+    std::fill(wide.begin(), wide.end(), 0.0);
+    if (core_.jobs->thread_count() == 1)
+      sum(true, true, wide.data());
+    else
+      core_.jobs->for_each(2, [&](std::uint32_t half) { sum(half == 0, half == 1, wide.data()); });
+    for (std::size_t k = 0; k < out_.entry.size(); ++k) {
+      for (std::size_t a = 0; a < 4; ++a) std::copy_n(wide.data() + 16 * k + 4 * a, 3, out_.entry[k].q[a]);
+    }
     add_rigidity();
     collect_means();
     out_.factor.factorise(std::move(lower_), static_cast<std::int32_t>(size), memory_);
@@ -261,17 +315,17 @@ class Assembly {
   // Returns the weight of edge e in the sample, or 0 if the sample leaves it out.
   double sample_weight(std::int32_t e) const noexcept {
     const std::int32_t i = core_.topology().first(e), j = core_.topology().second(e);
-    if (!is_elastic(i)) return 0;
-    if (probability_ >= 1) return 1;
-    if (needs_all_[i] || needs_all_[j]) return 1;
-    return scattered(static_cast<std::uint32_t>(e)) < probability_ ? sampled_weight_ : 0;
+    const bool all = probability_ >= 1 || (needs_all_[i] | needs_all_[j]) != 0;
+    const bool sampled = scattered(static_cast<std::uint32_t>(e)) < probability_;
+    return is_elastic(i) ? all ? 1.0 : sampled ? sampled_weight_ : 0.0 : 0.0;
   }
 
-  // Numbers the pairs (rotation group, cluster) that share vertices or edges. It marks them in a table, then numbers
-  // them group by group.
+  // Numbers the pairs (rotation group, cluster) that share vertices or edges, and sums the areas of their vertices. It
+  // marks them in a table, then numbers them group by group.
   void number_entries() {
     const std::size_t clusters = static_cast<std::size_t>(weights_.cluster_count);
     entry_of_.assign(out_.group.size() * clusters, -1);
+    Vector<double> area(entry_of_.size(), 0.0, &memory_);
     row_of_group_.assign(groups_.count(), 0);
     for (std::size_t k = 0; k < out_.group.size(); ++k) row_of_group_[out_.group[k]] = k * clusters;
     const auto mark = [&](std::int32_t group, std::int32_t v) {
@@ -287,7 +341,12 @@ class Assembly {
       }
     }
     for (std::int32_t v = 0; v < core_.size(); ++v) {
-      if (is_elastic(v)) mark(groups_.group_of[v], v);
+      if (!is_elastic(v)) continue;
+      const std::size_t row = row_of_group_[groups_.group_of[v]];
+      for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) {
+        entry_of_[row + weights_.cluster[k]] = 0;
+        area[row + weights_.cluster[k]] += rest_.area[v] * weights_.weight[k];
+      }
     }
     out_.entry_start.push_back(0);
     for (std::size_t g = 0; g < out_.group.size(); ++g) {
@@ -295,7 +354,7 @@ class Assembly {
         std::int32_t& number = entry_of_[g * clusters + c];
         if (number < 0) continue;
         number = static_cast<std::int32_t>(out_.entry.size());
-        out_.entry.push_back({static_cast<std::int32_t>(c), 0.0, {}});
+        out_.entry.push_back({static_cast<std::int32_t>(c), area[g * clusters + c], {}});
       }
       out_.entry_start.push_back(static_cast<std::int32_t>(out_.entry.size()));
     }
@@ -318,10 +377,6 @@ class Assembly {
     for_entries([&](std::int32_t f, Subspace::Use use) { out_.use[next[f]++] = use; });
   }
 
-  Subspace::Entry& entry(std::int32_t group, std::int32_t cluster) noexcept {
-    return out_.entry[entry_of_[row_of_group_[group] + static_cast<std::size_t>(cluster)]];
-  }
-
   // Lists the edges that the energy uses, in pieces of fixed size.
   void list_samples() {
     const Topology& topology = core_.topology();
@@ -337,11 +392,20 @@ class Assembly {
     const std::int32_t edges = topology.edge_count();
     const std::uint32_t pieces = static_cast<std::uint32_t>((edges + edge_piece - 1) / edge_piece);
     for (std::uint32_t p = 0; p < pieces; ++p) samples_.emplace_back();
+    const double share = std::min(1.0, 1.1 * probability_);  // most pieces stay below it
     core_.jobs->for_each(pieces, [&](std::uint32_t p) {
+      samples_[p].reserve(static_cast<std::size_t>(share * edge_piece));
       const std::int32_t first = static_cast<std::int32_t>(p) * edge_piece;
+      // the edges of the sample, listed without branches: no processor predicts them
+      Buffer<std::int32_t> listed(memory_, edge_piece + 1);
+      std::int32_t count = 0;
       for (std::int32_t e = first; e < std::min(edges, first + edge_piece); ++e) {
+        listed[count] = e;
+        count += sample_weight(e) > 0;
+      }
+      for (std::int32_t n = 0; n < count; ++n) {
+        const std::int32_t e = listed[n];
         const double sampled = sample_weight(e);
-        if (sampled == 0) continue;
         const std::int32_t i = topology.first(e), j = topology.second(e);
         const double gain = border_stiffness[elastic_[core_.mesh.component[i]] - 1];
         const double close = std::max(handle_share_[i], handle_share_[j]), square = close * close;
@@ -350,42 +414,19 @@ class Assembly {
     });
   }
 
-  // Calls use(samples, count, row) for every piece of edges. `row` has room for one edge.
-  template <class Use>
-  void for_samples(Use&& use) const {
-    Buffer<std::int32_t> cluster(memory_, 2 * static_cast<std::size_t>(widest_));
-    Buffer<EdgeRow::Z> z(memory_, 2 * static_cast<std::size_t>(widest_));
-    for (const auto& piece : samples_) use(piece.data(), piece.size(), EdgeRow{0, cluster.data(), z.data()});
-  }
-  BlendRows blend_rows() const noexcept {
-    return {weights_.start.data(), weights_.cluster.data(), weights_.weight.data(), core_.mesh.positions.data()};
-  }
-
-  void sum_blocks() {
-    const Blocks out{lower_.data(), out_.coupling.data(), out_.between.data(),
-                     static_cast<std::size_t>(weights_.handle_count), static_cast<std::size_t>(weights_.free_count())};
-    for_samples([&](const Sample* samples, std::size_t count, EdgeRow row) {
-      add_blocks(blend_rows(), samples, count, row, out);
-    });
-  }
-
-  void sum_moments() {
-    Buffer<double> wide(memory_, 16 * out_.entry.size());
-    std::fill(wide.begin(), wide.end(), 0.0);
-    const Moments out{wide.data(), entry_of_.data(), row_of_group_.data(), groups_.group_of.data()};
-    for_samples([&](const Sample* samples, std::size_t count, EdgeRow row) {
-      add_moments(blend_rows(), samples, count, row, out);
-    });
-    for (std::size_t k = 0; k < out_.entry.size(); ++k) {
-      for (std::size_t a = 0; a < 4; ++a) std::copy_n(wide.data() + 16 * k + 4 * a, 3, out_.entry[k].q[a]);
-    }
-  }
-
-  void add_areas() {
-    for (std::int32_t v = 0; v < core_.size(); ++v) {
-      if (!is_elastic(v)) continue;
-      for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k)
-        entry(groups_.group_of[v], weights_.cluster[k]).area += rest_.area[v] * weights_.weight[k];
+  void sum(bool blocks, bool moments, double* wide) {
+    const BlendRows rows{weights_.start.data(), weights_.cluster.data(), weights_.weight.data(),
+                         core_.mesh.positions.data()};
+    const Blocks of_clusters{lower_.data(), out_.coupling.data(), out_.between.data(),
+                             static_cast<std::size_t>(weights_.handle_count),
+                             static_cast<std::size_t>(weights_.free_count())};
+    const Moments of_groups{wide, entry_of_.data(), row_of_group_.data(), groups_.group_of.data()};
+    RunReader runs(rows, widest_, memory_);
+    for (const auto& piece : samples_) {
+      runs.read(piece.data(), piece.size(), [&](const EdgeRun& run) {
+        if (blocks) add_blocks(run, of_clusters);
+        if (moments) add_moments(run, rows.positions, of_groups);
+      });
     }
   }
 

@@ -256,6 +256,7 @@ Index ConstraintEdit::known_column(Index row, std::size_t group) const noexcept 
 
 // Takes the paths that another system has, and leaves the other rows.
 void ConstraintEdit::take_known_paths(Vector<Index>& left) {
+  taken_first_ = taken_end_ = state_.groups.size();
   for (std::size_t g = 0; known_.state && g < known_.state->groups.size(); ++g) {
     const PathGroup& paths = *known_.state->groups[g].paths;
     ConstraintState::Group taken;
@@ -281,6 +282,7 @@ void ConstraintEdit::take_known_paths(Vector<Index>& left) {
     for (Index c = 0; c < paths.count(); ++c)
       if (taken.row[c] != no_row) state_.path_of(taken.row[c]) = {static_cast<Index>(state_.groups.size()), c};
     state_.groups.push_back(std::move(taken));
+    taken_end_ = state_.groups.size();
   }
 }
 
@@ -352,6 +354,38 @@ void ConstraintEdit::project_pins(std::size_t first_group) {
   });
 }
 
+// Where the rows of the known sites are in their dense blocks, by slot. Empty where the products of known paths are not
+// those of the factor that all edits share: that factor is edited itself, or some sites are soft.
+Vector<Index> ConstraintEdit::known_places() const {
+  Vector<Index> place(&memory());
+  if (taken_end_ == taken_first_ || known_.state->base || &known_.factor->path_base() != known_.factor.get())
+    return place;
+  for (const auto& entry : known_.state->entries)
+    if (entry.used() && entry.site.compliance != 0) return place;
+  place.assign(known_.state->entries.size(), -1);
+  for (const auto& block : known_.state->blocks) {
+    if (!block) continue;
+    const Span<const Index> ids = block->ids();
+    for (std::size_t i = 0; i < ids.size(); ++i) place[at(ids[i])] = static_cast<Index>(i);
+  }
+  return place;
+}
+
+// The products of known paths with the factor before the edit are entries of the known dense blocks.
+void ConstraintEdit::take_known_gram(const ConstraintState::Group& mine, const ConstraintState::Group& other,
+                                     Span<const Index> place, double* gram) const {
+  const auto component = [&](Index row) { return known_.state->entries[at(row)].site.component; };
+  for (Index i = 0; i < mine.paths->count(); ++i) {
+    if (mine.row[i] == no_row) continue;
+    const DenseBlock& block = *known_.state->blocks[at(component(mine.row[i]))];
+    for (Index j = 0; j < other.paths->count(); ++j) {
+      const bool together = other.row[j] != no_row && component(other.row[j]) == component(mine.row[i]);
+      gram[i * PathGroup::capacity + j] = together ? block.entry(place[at(mine.row[i])], place[at(other.row[j])]) : 0.0;
+    }
+  }
+  factor().add_edit_products(*mine.paths, *other.paths, gram, PathGroup::capacity);
+}
+
 // Computes the products of the elimination paths of each new group with its own paths and the paths of all earlier
 // groups. One job handles a pair of groups, and each pair of rows gives one entry of M.
 void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
@@ -371,11 +405,16 @@ void ConstraintEdit::take_gram(std::size_t first_group, Batch& batch) const {
     if (g < first_group) continue;
     for (const std::size_t b : near) pairs.push_back({g, b});
   }
+  const Vector<Index> place = known_places();
+  const auto is_known = [&](std::size_t g) { return !place.empty() && g >= taken_first_ && g < taken_end_; };
   jobs_.for_each(static_cast<std::uint32_t>(pairs.size()), [&](std::uint32_t piece) {
     const auto& mine = state_.groups[pairs[piece].a];
     const auto& other = state_.groups[pairs[piece].b];
     double tile[PathGroup::capacity * PathGroup::capacity];
-    factor().gram(*mine.paths, *other.paths, tile, PathGroup::capacity);
+    if (is_known(pairs[piece].a) && is_known(pairs[piece].b))
+      take_known_gram(mine, other, place, tile);
+    else
+      factor().gram(*mine.paths, *other.paths, tile, PathGroup::capacity);
     const bool own = &mine == &other;
     for (Index i = 0; i < mine.paths->count(); ++i) {
       if (mine.row[i] == no_row) continue;

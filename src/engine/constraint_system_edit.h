@@ -41,6 +41,9 @@ class ConstraintEdit {
   void take_part(Part& part);
   void project_pins(std::size_t first_group);
   void take_gram(std::size_t first_group, Batch& batch) const;
+  Vector<Index> known_places() const;
+  void take_known_gram(const ConstraintState::Group& mine, const ConstraintState::Group& other, Span<const Index> place,
+                       double* gram) const;
   void take_couplings(Batch& batch) const;
   void append_rows(const Batch& batch);
   void refuse_dependent(const DenseBlock& block, Index component, Index failed) const;
@@ -58,6 +61,7 @@ class ConstraintEdit {
   ConstraintState& state_;
   const KnownPaths& known_;
   bool last_;
+  std::size_t taken_first_ = 0, taken_end_ = 0;  // the groups whose paths are those of `known`
   std::uint32_t path_solves_ = 0, factorisations_ = 0;
 };
 

@@ -15,6 +15,7 @@
 //     [ M   N ] [ x  ]   [   b    ]
 //     [ N'  C ] [ nu ] = [ -total ]        (C - N' M^-1 N) is negative definite
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "base/index.h"
@@ -56,6 +57,7 @@ class DenseBlock {
   double least_pivot() const noexcept;
   // Returns the ratio of the pivot of row i to its diagonal entry.
   double pivot_share(std::int32_t i) const noexcept;
+  double entry(std::int32_t i, std::int32_t j) const noexcept { return m_[row(std::max(i, j)) + at(std::min(i, j))]; }
   double bytes() const noexcept { return 8.0 * static_cast<double>(m_.size() + l_.size()); }
 
  private:

@@ -110,6 +110,12 @@ void GreenSolver::solve_into(const double* values, Index channels, FieldSink& si
         }
         return;
       }
+      if (one_component && reached(0)) {
+        for (std::size_t row = begin; row < end; ++row) {
+          for (std::size_t q = 0; q < m; ++q) z[row * m + q] += answer.constant[q];
+        }
+        return;
+      }
       for (std::size_t row = begin; row < end; ++row) {
         if (at(order[row]) >= n) continue;  // its vertex went
         const std::size_t c = one_component ? 0 : at(core_->mesh.component[at(order[row])]);

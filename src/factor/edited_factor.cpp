@@ -77,10 +77,10 @@ struct Lower {
 class EditedPaths final : public PathGroup {
  public:
   EditedPaths(std::shared_ptr<const PathGroup> base, Memory& memory)
-      : base_(std::move(base)), product(&memory), added(&memory), whole(&memory) {}
+      : base_(std::move(base)), product(&memory), added(&memory), changed(&memory) {}
   Index count() const noexcept override { return base_->count(); }
   double bytes() const noexcept override {
-    return base_->bytes() + 8.0 * static_cast<double>(product.size() + added.size() + whole.size());
+    return base_->bytes() + 8.0 * static_cast<double>(product.size() + added.size() + changed.size());
   }
   const PathGroup& base() const noexcept { return *base_; }
   std::shared_ptr<const PathGroup> shared_base() const noexcept { return base_; }
@@ -89,9 +89,10 @@ class EditedPaths final : public PathGroup {
   std::shared_ptr<const PathGroup> base_;
 
  public:
-  Vector<double> product;  // [k][count] Y'y
-  Vector<double> added;    // [k][count] W Y'y: the path is y + Y added
-  Vector<double> whole;    // [k][count] Y'(T^-1 y)
+  Vector<double> product;   // [k][count] Y'y
+  Vector<double> added;     // [k][count] W Y'y: the path is y + Y added
+  Vector<double> changed;   // [k][count] M Y'y with M = W + W' + W'CW: products of paths change by (Y'y)' M Y'y
+  bool has_inside = false;  // a site inside: its products with the inside are not all 0
 };
 
 // Probes of the inside's inverse: signs at random. With 16 its diagonal is known to a third, enough for a rounding.
@@ -155,7 +156,11 @@ class EditedFactor final : public Factor {
                    Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<Index> out_group,
                    Span<Index> out_column) const override;
   bool rows_of(Span<const Index>, SparseVectors&) const override { return false; }
-  void gram(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override;
+  void gram(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override {
+    base_->gram(of(a).base(), of(b).base(), gram, ld);
+    add_edit_products(a, b, gram, ld);
+  }
+  void add_edit_products(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override;
   void combine(const PathGroup& group, const double* lambda, Index channels, double* z) const override;
   void clear(const PathGroup& group, Index channels, double* z) const override {
     base_->clear(of(group).base(), channels, z);
@@ -516,6 +521,7 @@ void EditedFactor::add_inside(const SparseColumns& columns, std::size_t site, st
     if (there == unknown_.end() || *there != columns.row[at(e)]) continue;
     const std::size_t row = rim_ + at(inside_before_->position()[static_cast<std::size_t>(there - unknown_.begin())]);
     group.product[row * at(group.count()) + column] += columns.value[at(e)];
+    group.has_inside = true;
   }
 }
 
@@ -538,9 +544,9 @@ std::shared_ptr<const PathGroup> EditedFactor::edited_paths(std::shared_ptr<cons
   add_inside_of(*group);
   group->added.assign(group->product.begin(), group->product.end());
   apply(group->added.data(), m, false);
-  group->whole.assign(group->product.begin(), group->product.end());
+  Vector<double> whole(group->product.begin(), group->product.end(), &memory);  // Y'(T^-1 y)
   const auto add = [&](std::size_t i, std::size_t j, double c) {
-    for (std::size_t q = 0; q < m; ++q) group->whole[i * m + q] += c * group->added[j * m + q];
+    for (std::size_t q = 0; q < m; ++q) whole[i * m + q] += c * group->added[j * m + q];
   };
   for (std::size_t i = 0; i < rim_; ++i) {
     for (std::size_t j = 0; j < rim_; ++j) add(i, j, gram_[i * rim_ + j]);
@@ -549,19 +555,21 @@ std::shared_ptr<const PathGroup> EditedFactor::edited_paths(std::shared_ptr<cons
     const Span<const Index> place = inside_before_->position();
     if (entry.before != 0) add(rim_ + at(place[at(entry.row)]), rim_ + at(place[at(entry.column)]), entry.before);
   }
+  apply(whole.data(), m, true);
+  group->changed.assign(group->added.begin(), group->added.end());
+  for (std::size_t i = 0; i < whole.size(); ++i) group->changed[i] += whole[i];
   return group;
 }
 
-// (y_a + Y x_a)'(y_b + Y x_b) = y_a'y_b + (Y'y_a)'x_b + x_a'(Y'(y_b + Y x_b)).
-void EditedFactor::gram(const PathGroup& first, const PathGroup& second, double* gram, Index ld) const {
+// (y_a + Y x_a)'(y_b + Y x_b) - y_a'y_b = (Y'y_a)'x_b + x_a'(Y'(y_b + Y x_b)), and x_a = W Y'y_a.
+void EditedFactor::add_edit_products(const PathGroup& first, const PathGroup& second, double* gram, Index ld) const {
   const EditedPaths &a = of(first), &b = of(second);
-  base_->gram(a.base(), b.base(), gram, ld);
-  const std::size_t m = at(a.count()), n = at(b.count());
-  for (std::size_t r = 0; r < k_; ++r) {
-    const double *pa = &a.product[r * m], *xa = &a.added[r * m], *xb = &b.added[r * n], *qb = &b.whole[r * n];
+  const std::size_t m = at(a.count()), n = at(b.count()), rows = a.has_inside ? k_ : rim_;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const double *pa = &a.product[r * m], *changed = &b.changed[r * n];
     for (std::size_t i = 0; i < m; ++i) {
       double* const out = gram + i * at(ld);
-      for (std::size_t j = 0; j < n; ++j) out[j] += pa[i] * xb[j] + xa[i] * qb[j];
+      for (std::size_t j = 0; j < n; ++j) out[j] += pa[i] * changed[j];
     }
   }
 }

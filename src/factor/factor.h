@@ -146,6 +146,11 @@ class Factor {
   // Computes products of elimination paths: gram[i * ld + j] = y_i(a)' y_j(b) for i < a.count() and j < b.count().
   virtual void gram(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const = 0;
 
+  // Adds to products of paths of path_base() what this edit adds: gram() is both. Rows without a use may hold anything.
+  virtual void add_edit_products(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const {
+    (void)a, (void)b, (void)gram, (void)ld;
+  }
+
   // Adds z[row * channels + c] += sum_i Y[row, i] lambda[i * channels + c]. Y are the group's elimination paths, lambda
   // their factors.
   virtual void combine(const PathGroup& group, const double* lambda, std::int32_t channels, double* z) const = 0;

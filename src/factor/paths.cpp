@@ -7,6 +7,7 @@
 // decides the groups.
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 #include "base/error.h"
 #include "factor/supernodal_factor.h"
@@ -168,6 +169,59 @@ void SupernodalFactor::gram(const PathGroup& a, const PathGroup& b, double* gram
   }
 }
 
+namespace {
+
+// target += sum_i x[i] factor[i], row by row, for `count` rows of m numbers. The number of channels is known when it is
+// compiled, so a row stays in registers. It takes its terms in the order of sites.
+template <std::int32_t m>
+void add_rows(const double* x, std::int32_t stride, std::int32_t used, const double* factor, std::int32_t count,
+              double* target) noexcept {
+  for (std::int32_t j = 0; j < count; ++j, x += stride, target += m) {
+    double sum[m];
+    std::copy_n(target, m, sum);
+    for (std::int32_t i = 0; i < used; ++i) {
+      for (std::int32_t c = 0; c < m; ++c) sum[c] += x[i] * factor[i * m + c];
+    }
+    std::copy_n(sum, m, target);
+  }
+}
+
+// out[i] += sum over rows of x[i] source, in the order of rows.
+template <std::int32_t m>
+void add_products(const double* x, std::int32_t stride, std::int32_t used, const double* source, std::int32_t count,
+                  double* out) noexcept {
+  for (std::int32_t j = 0; j < count; ++j, x += stride, source += m) {
+    for (std::int32_t i = 0; i < used; ++i) {
+      for (std::int32_t c = 0; c < m; ++c) out[i * m + c] += x[i] * source[c];
+    }
+  }
+}
+
+// Calls use(std::integral_constant<std::int32_t, m>) for m = channels, 2 to 8. Returns false for others.
+template <class Use>
+bool with_channels(std::int32_t channels, Use&& use) {
+  switch (channels) {
+    case 2:
+      return use(std::integral_constant<std::int32_t, 2>()), true;
+    case 3:
+      return use(std::integral_constant<std::int32_t, 3>()), true;
+    case 4:
+      return use(std::integral_constant<std::int32_t, 4>()), true;
+    case 5:
+      return use(std::integral_constant<std::int32_t, 5>()), true;
+    case 6:
+      return use(std::integral_constant<std::int32_t, 6>()), true;
+    case 7:
+      return use(std::integral_constant<std::int32_t, 7>()), true;
+    case 8:
+      return use(std::integral_constant<std::int32_t, 8>()), true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
 void SupernodalFactor::combine(const PathGroup& group, const double* lambda, std::int32_t channels, double* z) const {
   const PathBlocks& paths = blocks_of(group);
   for (const PathBlock& block : paths.blocks) {
@@ -175,6 +229,9 @@ void SupernodalFactor::combine(const PathGroup& group, const double* lambda, std
     const double* factor = lambda + static_cast<std::int64_t>(block.low) * channels;
     double* target = z + static_cast<std::int64_t>(symbolic().first[block.supernode]) * channels;
     const std::int32_t columns = symbolic().columns(block.supernode);
+    const bool done = with_channels(
+        channels, [&](auto m) { add_rows<decltype(m)::value>(x, block.lanes, block.used, factor, columns, target); });
+    if (done) continue;
     for (std::int32_t j = 0; j < columns; ++j, x += block.lanes, target += channels) {
       if (channels == 1) {
         double sum = 0;
@@ -204,6 +261,10 @@ void SupernodalFactor::project(const PathGroup& group, const double* z, std::int
     const double* source = z + static_cast<std::int64_t>(symbolic().first[block.supernode]) * channels;
     double* target = out + static_cast<std::int64_t>(block.low) * channels;
     const std::int32_t columns = symbolic().columns(block.supernode);
+    const bool done = with_channels(channels, [&](auto m) {
+      add_products<decltype(m)::value>(x, block.lanes, block.used, source, columns, target);
+    });
+    if (done) continue;
     for (std::int32_t j = 0; j < columns; ++j, x += block.lanes, source += channels) {
       for (std::int32_t i = 0; i < block.used; ++i) {
         for (std::int32_t c = 0; c < channels; ++c) target[i * channels + c] += x[i] * source[c];

@@ -44,6 +44,8 @@ Rows run_large_sites(const Run& run, Report& report);
 void plot_large_sites(const Runs& runs, const std::string& file);
 Rows run_edits(const Run& run, Report& report);
 void plot_edits(const Runs& runs, const std::string& file);
+// Rows of strokes with a pose drawn; run_edits calls it.
+void run_edit_poses(const Run& run, Report& report, Rows& rows);
 Rows run_memory(const Run& run, Report& report);
 void plot_memory(const Runs& runs, const std::string& file);
 Rows run_accuracy(const Run& run, Report& report);

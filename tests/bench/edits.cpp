@@ -6,12 +6,11 @@
 
 #include "bench/bench_mesh.h"
 #include "bench/commands.h"
+#include "bench/strokes.h"
 #include "bench/svg_plot.h"
 
 namespace bench {
-namespace {
 
-// The first `count` vertices around one, ring by ring.
 std::vector<uint32_t> patch(const std::vector<std::vector<uint32_t>>& neighbours, uint32_t centre, uint32_t count) {
   std::vector<uint32_t> list(1, centre);
   std::vector<bool> seen(neighbours.size(), false);
@@ -33,7 +32,7 @@ std::vector<std::vector<uint32_t>> neighbours_of(const Mesh& mesh) {
   return out;
 }
 
-hf_surface edited(hf_surface surface, const std::vector<uint32_t>& vertices, double s) {
+hf_surface stiffened(hf_surface surface, const std::vector<uint32_t>& vertices, double s) {
   const std::vector<double> stiffness(vertices.size(), s);
   hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
   desc.vertex_count = static_cast<uint32_t>(vertices.size());
@@ -43,6 +42,8 @@ hf_surface edited(hf_surface surface, const std::vector<uint32_t>& vertices, dou
   check(hf_surface_edit(surface, &desc, &out));
   return out;
 }
+
+namespace {
 
 hf_surface linked(hf_surface surface, const hf_link* in, const uint32_t* out_number) {
   hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
@@ -269,7 +270,7 @@ nlohmann::json run_edits_on(const Mesh& mesh, const Run& run, Report* report) {
       const std::vector<uint32_t> stroke = patch(neighbours, centre, count);
       const double before = solver.surface_statistics().memory_bytes;
       hf_surface stiff = nullptr;
-      edits.push_back(time_ms([&] { stiff = edited(solver.surface(), stroke, 50); }));
+      edits.push_back(time_ms([&] { stiff = stiffened(solver.surface(), stroke, 50); }));
       bytes.push_back(solver.surface_statistics().memory_bytes - before);
       moves.push_back(time_ms([&] { check(hf_solver_move_to(moved, stiff)); }));
       fields.push_back(time_ms([&] { check(hf_solve(moved, field.data(), 0, nullptr)); }));
@@ -302,7 +303,11 @@ nlohmann::json run_edits_on(const Mesh& mesh, const Run& run, Report* report) {
 
 }  // namespace
 
-Rows run_edits(const Run& run, Report& report) { return run_meshes(run, report, run_edits_on); }
+Rows run_edits(const Run& run, Report& report) {
+  Rows rows = run_meshes(run, report, run_edits_on);
+  run_edit_poses(run, report, rows);
+  return rows;
+}
 
 void plot_edits(const Runs& runs, const std::string& file) {
   BarPlot plot;

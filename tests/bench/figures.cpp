@@ -103,6 +103,7 @@ const std::vector<Figure>& all_figures() {
       {"cut_memory", "memory that it adds to a surface", false, both(0.1), both(0.03), "%.3f"},
       {"link_in", "a link more and the field over a site more and the field", false, both(1.2), both(1.05), "%.2fx"},
       {"link_out", "a link less and the field over a site more and the field", false, both(1.2), both(1.05), "%.2fx"},
+      {"strokes_posed", "strokes of 30 vertices a second, with a pose of 8 handles", true, both(60), both(200), "%.0f"},
       {"link_memory", "memory that a link adds to a surface", false, both(0.1), both(0.03), "%.3f"},
       {"sites_1000", "1,000 sites at once against our own refactorisation + sweeps", false, both(1.15), both(1.0),
        "%.2fx"},

@@ -4321,7 +4321,9 @@ namespace Hf
         }
 
         /// <summary>Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The
-        /// next Pose.Deform shows the surface with its new stiffness and links.
+        /// next Pose.Deform goes on from the pose as it stands, with the new stiffness and links. So a faint stroke
+        /// moves next to nothing, also where handles of free rotation could rest in two poses. With restart the
+        /// frame is that of a new pose on `surface`, to 1e-6 of the box.
         ///
         /// surface: made by Surface.Edit or Surface.Relink from the pose's surface, or the other way round, in any
         ///     number of steps.
