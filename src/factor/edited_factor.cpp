@@ -158,9 +158,12 @@ class EditedFactor final : public Factor {
   bool rows_of(Span<const Index>, SparseVectors&) const override { return false; }
   void gram(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override {
     base_->gram(of(a).base(), of(b).base(), gram, ld);
-    add_edit_products(a, b, gram, ld);
+    add_own_products(a, b, gram, ld);
   }
-  void add_edit_products(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override;
+  void add_edit_products(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override {
+    base_->add_edit_products(of(a).base(), of(b).base(), gram, ld);
+    add_own_products(a, b, gram, ld);
+  }
   void combine(const PathGroup& group, const double* lambda, Index channels, double* z) const override;
   void clear(const PathGroup& group, Index channels, double* z) const override {
     base_->clear(of(group).base(), channels, z);
@@ -183,6 +186,7 @@ class EditedFactor final : public Factor {
     double before, change;
   };
   static const EditedPaths& of(const PathGroup& group) noexcept { return static_cast<const EditedPaths&>(group); }
+  void add_own_products(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const;
   void add_inside(const SparseColumns& columns, std::size_t site, std::size_t column, EditedPaths& group) const;
   template <class AddInside>
   std::shared_ptr<const PathGroup> edited_paths(std::shared_ptr<const PathGroup> base, Memory& memory,
@@ -562,7 +566,7 @@ std::shared_ptr<const PathGroup> EditedFactor::edited_paths(std::shared_ptr<cons
 }
 
 // (y_a + Y x_a)'(y_b + Y x_b) - y_a'y_b = (Y'y_a)'x_b + x_a'(Y'(y_b + Y x_b)), and x_a = W Y'y_a.
-void EditedFactor::add_edit_products(const PathGroup& first, const PathGroup& second, double* gram, Index ld) const {
+void EditedFactor::add_own_products(const PathGroup& first, const PathGroup& second, double* gram, Index ld) const {
   const EditedPaths &a = of(first), &b = of(second);
   const std::size_t m = at(a.count()), n = at(b.count()), rows = a.has_inside ? k_ : rim_;
   for (std::size_t r = 0; r < rows; ++r) {

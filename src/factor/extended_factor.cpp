@@ -77,7 +77,14 @@ class ExtendedFactor final : public Factor {
                    Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<Index> out_group,
                    Span<Index> out_column) const override;
   bool rows_of(Span<const Index> unknowns, SparseVectors& out) const override;
-  void gram(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override;
+  void gram(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override {
+    base_->gram(of(a).base(), of(b).base(), gram, ld);
+    add_new_products(of(a), of(b), gram, ld);
+  }
+  void add_edit_products(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override {
+    base_->add_edit_products(of(a).base(), of(b).base(), gram, ld);
+    add_new_products(of(a), of(b), gram, ld);
+  }
   void combine(const PathGroup& group, const double* lambda, Index channels, double* z) const override;
   void clear(const PathGroup& group, Index channels, double* z) const override;
   void project(const PathGroup& group, const double* z, Index channels, double* out) const override;
@@ -115,6 +122,7 @@ class ExtendedFactor final : public Factor {
     Vector<double> value;
   };
   BaseColumns base_columns(const SparseColumns& columns, Memory& memory) const;
+  void add_new_products(const ExtendedPaths& a, const ExtendedPaths& b, double* gram, Index ld) const;
   // Adds the entries of a column at new unknowns to a column of a group.
   void add_new(const SparseColumns& columns, std::size_t from, Index to, ExtendedPaths& group) const;
 
@@ -208,9 +216,7 @@ bool ExtendedFactor::rows_of(Span<const Index> unknowns, SparseVectors& out) con
   return true;
 }
 
-void ExtendedFactor::gram(const PathGroup& first, const PathGroup& second, double* gram, Index ld) const {
-  const ExtendedPaths &a = of(first), &b = of(second);
-  base_->gram(a.base(), b.base(), gram, ld);
+void ExtendedFactor::add_new_products(const ExtendedPaths& a, const ExtendedPaths& b, double* gram, Index ld) const {
   auto from = b.entries.begin();
   for (const ExtendedPaths::Entry& x : a.entries) {
     while (from != b.entries.end() && from->row < x.row) ++from;
