@@ -230,9 +230,11 @@ typedef struct hf_gltf_pairs_info {
   float source_axes[9], target_axes[9]; /* for hf_transfer_desc */
   float scale; /* for hf_transfer_desc: lengths of the target over lengths of the source by the legs of both skeletons,
                 * or as the pairs say; 0: a skeleton has no legs that are known, or neither body is upright */
+  int32_t ground; /* for hf_transfer_desc, HF_GROUND_* of hf/transfer.h: OFF where a body swims or the pairs say so */
 } hf_gltf_pairs_info;
 
-/* Writes the number of pairs, the axes of both models and the scale between them. Since 0.1. */
+/* Writes the number of pairs, the axes of both models, the scale between them and whether there is a ground. Since
+ * 0.1. */
 HF_GLTF_API hf_result hf_gltf_pairs_get_info(hf_gltf_pairs pairs, hf_gltf_pairs_info* out_info);
 
 typedef struct hf_gltf_pair {

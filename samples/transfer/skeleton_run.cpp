@@ -190,6 +190,9 @@ ChosenWay choose_way(const TransferCommand& command, const JointModels& models) 
 
 namespace {
 
+// Nothing is under a fish.
+bool has_ground(const JointModels& models) { return !models.source_known.swims() && !models.target_known.swims(); }
+
 // The degrees of the arms alone; below 0: there are none.
 double arms_of(const PoseFit& fit) {
   double sum = 0, count = 0;
@@ -252,7 +255,7 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
       target{models.target, models.target_mesh, models.target_known};
   const std::vector<uint8_t> source_out = beside_body(source), target_out = beside_body(target),
                              source_flesh = beside_flesh(source), target_flesh = beside_flesh(target);
-  const bool has_source = !models.source_mesh.triangles.empty();
+  const bool has_source = !models.source_mesh.triangles.empty(), ground = has_ground(models);
   for (size_t c = 0; c < played.size() && c < report.faults.size(); ++c) {
     ClipFaults& faults = report.faults[c];
     PoseFit fit;
@@ -275,12 +278,12 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
       const double parts = acceleration_of(source, target, scale, played[c].source_frames, played[c].target_frames);
       if (parts > 0) faults.acceleration = parts;
     }
-    faults.slide =
-        slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
-    faults.hover = hover_of(source, target, scale, played[c].source_frames, played[c].target_frames);
+    if (ground) {
+      faults.slide =
+          slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
+      faults.hover = hover_of(source, target, scale, played[c].source_frames, played[c].target_frames);
+    }
     if (models.pair.understood()) faults.uneven = models.pair.unevenness();
-    // nothing is under a fish
-    const bool ground = !models.source_known.swims() && !models.target_known.swims();
     const auto depth = [&](const std::vector<uint8_t>& source_part, const std::vector<uint8_t>& target_part) {
       return ground ? depth_of(source, target, scale, source_part, target_part, played[c].source_frames,
                                played[c].target_frames)
@@ -303,7 +306,7 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
                         const TransferCommand& command, ProgressBar& bar) {
   JointOptions options;
   options.in_place = command.in_place || command.root_motion;
-  options.ground = command.ground;
+  options.ground = command.ground && has_ground(models);
   for (const auto& [name, value] : command.dials)
     if (name == "stride") options.stride = value;
   if (!(options.stride > 0)) throw std::runtime_error("--dials stride is not above 0; joints cannot walk so");
@@ -363,8 +366,9 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
       played[c].target_frames = frames_of(written, again, written.animations[c], played[c].clip.times);
     }
     measure_left_behind(models, left_behind, played[c], report);
-    played[c].feet.surface_sunk = depth_of(source, target, report.scale, source_out, target_out,
-                                           played[c].source_frames, played[c].target_frames);
+    if (has_ground(models))
+      played[c].feet.surface_sunk = depth_of(source, target, report.scale, source_out, target_out,
+                                             played[c].source_frames, played[c].target_frames);
     report.clip_names.push_back(clips[c]->name);
     report.frames.push_back(played[c].clip.times.size());
     report.frame_ms.push_back(played[c].frame_ms);

@@ -112,6 +112,7 @@ static hf_transfer transfer_of(const Body* source, const Body* target) {
     desc.target_axes[i] = info.target_axes[i];
   }
   desc.scale = info.scale;
+  desc.ground = info.ground;
   hf_transfer transfer;
   ok(hf_transfer_create(source->surface, target->surface, &desc, &transfer));
   for (uint32_t p = 0; p < info.pair_count; ++p) {

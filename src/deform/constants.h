@@ -333,6 +333,9 @@ constexpr double most_part_share = 0.8;
 // Edges between a head and the pinned trunk. With 0 a head without a neck tears off its body. With more a small trunk
 // has no vertices left.
 constexpr int free_rings = 2;
+// A trunk whose head has no neck is pinned beyond this share of its length. Less draws the chest of kk_Knight out to a
+// neck with teeth, as 0.5 does; half pins nearly all of it. More than 1 pins nothing.
+constexpr double neckless_share = 0.7;
 // Vertices: a smaller part is too coarse for a region of its own.
 constexpr std::size_t least_part = 3;
 // A radius grows or shrinks by this factor, up to most_radius and most_attempts times, until its region fits.

@@ -75,6 +75,7 @@ MovedParts::MovedParts(const Core& core, const KnownSkeleton& known)
   find_vertices();
   find_beside();
   find_chest();
+  find_head_base();
 }
 
 template <class Visit>
@@ -248,8 +249,46 @@ void MovedParts::find_chest() {
   }
 }
 
-bool MovedParts::is_of_chest(std::int32_t vertex) const noexcept {
-  if (beside_[at(vertex)]) return false;
+void MovedParts::find_head_base() {
+  if (!core_.geometry->links) return;
+  const Links& links = *core_.geometry->links;
+  const auto in_head = [&](std::int32_t v) {
+    return vertex_part_[at(v)] >= 0 && part_role_[at(vertex_part_[at(v)])] == Role::head;
+  };
+  // pieces with vertices in a head and others: their edges draw out
+  Vector<std::uint8_t> within(links.light.size(), 0, &memory_);
+  for (std::size_t v = 0; v < links.piece.size(); ++v)
+    within[at(links.piece[v])] |= in_head(static_cast<std::int32_t>(v)) ? 1 : 2;
+  double count = 0;
+  bool others = false;
+  for (const Link& link : links.links) {
+    const std::int32_t other = *std::max_element(link.corner, link.corner + 3);
+    for (const auto& [from, to] : {std::pair(link.vertex, other), std::pair(other, link.vertex)}) {
+      if (!in_head(from) || in_head(to) || links.light[at(links.piece[at(to)])]) continue;
+      if (within[at(links.piece[at(from)])] == 1 && is_chest(to)) {
+        head_base_ = head_base_ + core_.mesh.positions[at(to)];
+        ++count;
+      } else {
+        others = true;
+      }
+    }
+  }
+  for (std::size_t v = 0; v < links.piece.size(); ++v)
+    others = others || (in_head(static_cast<std::int32_t>(v)) && within[at(links.piece[v])] != 1);
+  head_on_chest_ = count > 0 && !others;
+  if (head_on_chest_) head_base_ = (1 / count) * head_base_;
+}
+
+bool MovedParts::is_in_trunk(std::int32_t vertex) const noexcept {
+  double all = 0, own = 0;
+  for_joints(vertex, [&](std::uint32_t j, double weight) {
+    all += weight;
+    if (known_.character.roles[j] == Role::spine) own += weight;
+  });
+  return 2 * own > all;
+}
+
+bool MovedParts::is_chest(std::int32_t vertex) const noexcept {
   double all = 0, own = 0;
   for_joints(vertex, [&](std::uint32_t j, double weight) {
     all += weight;

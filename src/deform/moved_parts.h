@@ -68,7 +68,14 @@ class MovedParts {
   }
   // Whether the vertex is one that the chest of an upright body moves: the last joint of the spine before neck or head,
   // or a shoulder. Without it a head that is dragged draws the chest to a neck. free_rings as above.
-  bool is_of_chest(std::int32_t vertex) const noexcept;
+  bool is_of_chest(std::int32_t vertex) const noexcept {
+    return !beside_[static_cast<std::size_t>(vertex)] && is_chest(vertex);
+  }
+  // Whether joints of the spine move most of a vertex, and not what hangs on them, as a cape.
+  bool is_in_trunk(std::int32_t vertex) const noexcept;
+  // Where the head of an upright body is linked to the chest, the mean. NULL if there is a neck or an edge between
+  // them.
+  const Vec3* head_on_chest() const noexcept { return head_on_chest_ ? &head_base_ : nullptr; }
   // The part of a joint, or -1.
   std::int32_t part_of_joint(std::uint32_t joint) const noexcept { return joint_part_[joint]; }
 
@@ -79,6 +86,8 @@ class MovedParts {
   void find_vertices();
   void find_beside();
   void find_chest();
+  void find_head_base();
+  bool is_chest(std::int32_t vertex) const noexcept;
   // Calls visit(joint, weight) for the joints of an inner vertex.
   template <class Visit>
   void for_joints(std::int32_t v, Visit&& visit) const;
@@ -100,6 +109,8 @@ class MovedParts {
   Vector<std::int32_t> start_, vertex_;  // vertices of part p: vertex_[start_[p] .. start_[p + 1])
   Vector<std::uint8_t> chest_;           // by joint
   Vector<double> moved_;                 // by joint: scratch of joint_of
+  bool head_on_chest_ = false;
+  Vec3 head_base_;
 };
 
 }  // namespace hf_inner

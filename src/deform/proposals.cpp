@@ -221,13 +221,25 @@ class Proposer {
   }
 
   // Pins the vertices near the middle of the trunk that the spine moves, and the chest of an upright body. If the
-  // middle is on a thigh or a neck, it moves to the middle of the vertices that the spine moves.
+  // middle is on a thigh or a neck, it moves to the middle of the vertices that the spine moves. Where a head sits on
+  // the chest without a neck, the far part of the trunk is pinned, so that a dragged head draws out the near part.
   void place_trunk(MovedParts& parts) {
     const auto middle = std::find_if(found_.begin(), found_.end(),
                                      [](const Candidate& other) { return other.reason == HandleReason::middle; });
     if (middle == found_.end()) return;
     Vector<std::uint8_t> spine(mesh_.positions.size(), 0, &memory_);
     for (std::size_t v = 0; v < spine.size(); ++v) spine[v] = parts.is_of_spine(static_cast<Index>(v));
+    const Vec3* const head = parts.head_on_chest();
+    if (head) {
+      double far = 0;
+      for (std::size_t v = 0; v < spine.size(); ++v) {
+        if (spine[v] && parts.is_in_trunk(static_cast<Index>(v)))
+          far = std::max(far, distance(mesh_.positions[v], *head));
+      }
+      for (std::size_t v = 0; v < spine.size(); ++v)
+        spine[v] &=
+            parts.is_in_trunk(static_cast<Index>(v)) && distance(mesh_.positions[v], *head) > neckless_share * far;
+    }
     const auto near_middle = [&] {
       Vector<Index> out(&memory_);
       for (std::size_t v = 0; v < spine.size(); ++v) {
@@ -247,7 +259,7 @@ class Proposer {
     }
     if (held.size() < least_region) return;
     for (std::size_t v = 0; v < spine.size(); ++v) {
-      if (parts.is_of_chest(static_cast<Index>(v))) held.push_back(static_cast<Index>(v));
+      if (head ? spine[v] != 0 : parts.is_of_chest(static_cast<Index>(v))) held.push_back(static_cast<Index>(v));
     }
     std::sort(held.begin(), held.end());
     held.erase(std::unique(held.begin(), held.end()), held.end());

@@ -2,6 +2,7 @@
 #include "gltf/api_objects.h"
 #include "gltf/json_file.h"
 #include "gltf/suggest_pairs.h"
+#include "hf/transfer.h"
 
 namespace hf_gltf {
 namespace {
@@ -111,6 +112,7 @@ hf_result hf_gltf_pairs_get_info(hf_gltf_pairs pairs, hf_gltf_pairs_info* out_in
     write_axes(object->pairs.source_axes, info.source_axes);
     write_axes(object->pairs.target_axes, info.target_axes);
     info.scale = static_cast<float>(object->scale);
+    info.ground = object->pairs.settings.ground ? HF_GROUND_KEEP : HF_GROUND_OFF;
   });
 }
 

@@ -105,6 +105,7 @@ class LinkSearch {
   static bool may_touch(const Pair& pair) noexcept {
     return pair.gap < touching && (pair.kin || pair.skin <= skin_difference * skin_distance);
   }
+  static bool is_kin(const Contact& contact) noexcept { return contact.steps <= 1; }
   bool is_light(Index vertex) const noexcept { return out_.light[at(mesh_.component[at(vertex)])] != 0; }
   bool has_sheet(const Pair& pair) const noexcept { return sheet_[at(pair.a)] || sheet_[at(pair.b)]; }
   Index other_of(std::size_t pair, Index piece) const noexcept {
@@ -414,22 +415,27 @@ void LinkSearch::link_hinge(Vector<Contact>* sides, bool in_tree) {
 // the candidates is a contact, so that a pair of the tree always gets a link.
 void LinkSearch::link_pair(const Pair& pair) {
   Vector<Contact> sides[2] = {Vector<Contact>(&memory_), Vector<Contact>(&memory_)};
-  const bool hinge = pair.unlike() > skin_difference * skin_distance;
+  // What the skeleton knows as a joint holds all around: one point would draw a neck out to a spike.
+  const bool joint = pair.steps == 1, hinge = !joint && pair.unlike() > skin_difference * skin_distance;
   const double depth = hinge ? hinge_depth : contact_depth;
+  const auto is_far = [&](const Contact& contact) {
+    return joint ? contact.steps > joint_steps || contact.distance > pair.distance + depth
+                 : contact.cost > pair.cost + depth;
+  };
   for (const std::size_t most : {link_candidates, std::size_t{SIZE_MAX}}) {
     for (int side = 0; side < 2; ++side) {
       Vector<Contact>& near = sides[side];
       near.clear();
-      double reach = least_above(pair.cost + depth - pair.skin);
+      double reach = least_above(joint ? pair.distance + depth : pair.cost + depth - pair.skin);
       contacts_.find(side ? pair.b : pair.a, side ? pair.a : pair.b, unbounded, reach, near, most);
-      near.erase(std::remove_if(near.begin(), near.end(),
-                                [&](const Contact& contact) { return contact.cost > pair.cost + depth; }),
-                 near.end());
+      near.erase(std::remove_if(near.begin(), near.end(), is_far), near.end());
     }
     if (sides[0].empty() && sides[1].empty()) continue;
     if (hinge) return link_hinge(sides, pair.in_tree);
+    const std::size_t before = out_.links.size();
     for (const Vector<Contact>& near : sides)
       link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree, out_.links);
+    for (std::size_t i = before; joint && i < out_.links.size(); ++i) out_.links[i].weight *= joint_stiffness;
     return;
   }
 }
@@ -473,6 +479,10 @@ void LinkSearch::link_light() {
     for (const Index v : contacts_.vertices_of(static_cast<Index>(p))) {
       if (best[at(v)].vertex != Mesh::none) found.push_back(best[at(v)]);
     }
+    // strangers only where the piece touches nothing else
+    if (std::any_of(found.begin(), found.end(), is_kin))
+      found.erase(std::remove_if(found.begin(), found.end(), [](const Contact& contact) { return !is_kin(contact); }),
+                  found.end());
     double unlike = unbounded;
     for (const Contact& contact : found) unlike = std::min(unlike, contact.unlike());
     const bool hinge = unlike > skin_difference * skin_distance;

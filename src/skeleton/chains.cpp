@@ -170,10 +170,13 @@ bool has_legs(const Character& out) {
   return legs > 0 && 4 * legs >= longest;
 }
 
-// Names and shape that agree make it sure, names of sides alone less so; a body without head or legs is not understood.
+// Names and shape that agree make it sure, names of sides alone less so; a body without head or without legs and fins
+// is not understood.
 double role_confidence(const Body& body, const Character& out) {
   double sure = body.named ? 0.95 : body.sides_named ? 0.75 : 0.6;
-  if (!has_legs(out)) sure -= 0.2;
+  const bool swims =
+      std::any_of(out.chains.begin(), out.chains.end(), [](const Chain& c) { return c.role == Role::fin; });
+  if (!has_legs(out) && !swims) sure -= 0.2;
   if (body.head < 0) sure -= 0.2;
   if (!body.sides_named && (body.mirror_margin < unsure || body.mirror_score < 0)) sure = std::min(sure, 0.4);
   return std::min(sure, body.tree.size() < 3 ? 0.1 : 1.0);

@@ -64,6 +64,19 @@ bool hangs_over_legs(const Body& body, const Limb& limb) {
          });
 }
 
+// The only limbs without names that reach the ground, farther aside than down: no body that is not upright stands on
+// them. A ray lies on its fins.
+bool lies_on(const Body& body, const Limb& limb, std::size_t standing_count) {
+  if (!limb.stands || standing_count != 1 || body.trunk > upright_trunk) return false;
+  double aside = 0, down = 0;
+  for (const auto& path : limb.paths) {
+    const Vec3 way = body.pivots[at(path.back())] - body.pivots[at(path.front())];
+    aside += std::fabs(dot(way, body.left));
+    down -= dot(way, body.up);
+  }
+  return aside > down;
+}
+
 Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count) {
   if (body.head >= 0 && body.head != body.root && body.is_below(limb.carrier, body.head))
     return is_leg_on_head(body, limb) ? Role::leg : role_on_head(limb);
@@ -96,6 +109,7 @@ Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count
       return Role::other;
   }
   if (!large) return Role::other;
+  if (lies_on(body, limb, standing_count)) return Role::fin;
   if (limb.stands && !hangs_over_legs(body, limb)) return Role::leg;
   if (flatness(body, limb) < 0.15 && limb.length > 0.3 && limb.paths[0].size() < 4) return Role::wing;
   return Role::arm;

@@ -327,6 +327,8 @@ func check(step, objects, kept):
 	var answer = run(step, objects, kept)
 	if not answer[0]:
 		left_out += 1
+		if step["do"] == "move_to": # Godot edits no surface, so the steps after it are of another one
+			objects.erase(step.on)
 		return ""
 	done += 1
 	if step.has("error"):
@@ -606,6 +608,73 @@ const BONES = [["hips", -1, Vector3(0, 1, 0)], ["spine", 0, Vector3(0, 0.3, 0)],
 	["left_thigh", 0, Vector3(0.1, -0.05, 0)], ["left_shin", 3, Vector3(0, -0.45, 0.02)], ["left_foot", 4, Vector3(0, -0.42, -0.02)],
 	["right_thigh", 0, Vector3(-0.1, -0.05, 0)], ["right_shin", 6, Vector3(0, -0.45, 0.02)], ["right_foot", 7, Vector3(0, -0.42, -0.02)]]
 
+# Where a bone of BONES stands at rest.
+func stands(bone):
+	return BONES[bone][2] + (stands(BONES[bone][1]) if BONES[bone][1] >= 0 else Vector3())
+
+# A mesh of boxes, one for each bone of BONES, in another size. number: of a bone in its skin.
+func boxes(size, number):
+	var at = PackedVector3Array()
+	var corners = PackedInt32Array()
+	var bones = PackedInt32Array()
+	var weights = PackedFloat32Array()
+	for bone in BONES.size():
+		var above = BONES[bone][1]
+		var box = AABB(stands(bone), Vector3()).expand(stands(above) if above >= 0 else stands(bone) + Vector3(0, 0.1, 0))
+		box = box.grow(0.15 if bone == 2 else 0.06)
+		for corner in 8:
+			at.append(size * (box.position + box.size * Vector3(corner & 1, corner >> 1 & 1, corner >> 2 & 1)))
+			for k in 4:
+				bones.append(number[bone] if k == 0 else 0)
+				weights.append(1.0 if k == 0 else 0.0)
+		for corner in [0, 3, 2, 0, 1, 3, 4, 7, 5, 4, 6, 7, 0, 5, 1, 0, 4, 5, 2, 7, 6, 2, 3, 7, 0, 6, 4, 0, 2, 6, 1, 7, 3, 1, 5, 7]:
+			corners.append(8 * bone + corner)
+	var arrays = []
+	arrays.resize(Mesh.ARRAY_MAX)
+	arrays[Mesh.ARRAY_VERTEX] = at
+	arrays[Mesh.ARRAY_INDEX] = corners
+	arrays[Mesh.ARRAY_BONES] = bones
+	arrays[Mesh.ARRAY_WEIGHTS] = weights
+	var mesh = ArrayMesh.new()
+	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	return mesh
+
+# A skeleton names the proposals, and a head is whole; also where a skin numbers the bones and has another unit.
+func proposals():
+	var body = skeleton(1, 0.4)
+	var skin = Skin.new()
+	var numbers = [[], []]
+	for bone in BONES.size():
+		numbers[0].append(bone)
+		numbers[1].append(BONES.size() - 1 - bone)
+	for bind in BONES.size():
+		var bone = BONES.size() - 1 - bind
+		var rest = Transform3D(Basis(Vector3(1, 0, 0), 0.4), stands(bone))
+		skin.add_bind(bone, rest.affine_inverse() * Transform3D(Basis().scaled(Vector3(0.5, 0.5, 0.5)), Vector3()))
+	for one in 2:
+		var deformer = Deformer.new()
+		deformer.mesh = boxes(one + 1, numbers[one])
+		get_root().add_child(deformer)
+		expect(deformer.bind({ "link_pieces": 1 }), "boxes")
+		var rows = deformer.propose(body, skin if one == 1 else null)
+		expect(rows != null and rows.size() > 2, "proposals by a skeleton: %s" % str(deformer.surface.get_error()))
+		var feet = []
+		for row in rows:
+			if row.pinned and row.role == 10:
+				feet.append(row.bone)
+			if row.role == 3:
+				expect(row.bone == "head" and Array(row.region) == range(16, 24) and not row.pinned, "a head is whole: %s" % [row])
+				var head = deformer.add_proposed(row)
+				expect(head != null and deformer.handles[head].following == 0.25, "the head is added")
+				feet.append("head")
+		feet.sort()
+		expect(feet == ["head", "left_foot", "right_foot"], "feet hold, a head waits: %s" % [feet])
+		expect(deformer.surface.propose_handles("a", [0], [0, 0]) == null, "wrong lists are refused")
+		expect(not deformer.propose()[0].has("bone"), "no skeleton, no name")
+		deformer.free()
+	body.free()
+	print("proposals: a skeleton names them")
+
 # A frame of hf_retarget.gd is what the library makes of the plain arrays.
 func retargeted():
 	var man = skeleton(1, 0)
@@ -675,5 +744,6 @@ func _initialize():
 	lifetime()
 	memory()
 	retargeted()
+	proposals()
 	imported()
 	quit(1 if failed > 0 else 0)

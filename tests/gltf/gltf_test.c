@@ -9,6 +9,7 @@
 /* behind the headers that it needs */
 #include <cmocka.h>
 
+#include "hf/transfer.h"
 #include "hf_gltf/gltf.h"
 
 enum { ROWS = 5, VERTICES = 2 * ROWS, TRIANGLES = 2 * (ROWS - 1), FRAMES = 5 };
@@ -265,6 +266,7 @@ static void pairs_give_regions_and_come_back(void** state) {
   assert_int_equal(info.pair_count, 2);
   near_to((double)info.source_axes[4], 1);
   near_to((double)info.scale, 0); /* a strip has no legs */
+  assert_int_equal(info.ground, HF_GROUND_KEEP);
   hf_gltf_pair pair = HF_INIT(hf_gltf_pair);
   assert_int_equal(hf_gltf_pairs_get_pair(pairs, 1, &pair), HF_OK);
   assert_string_equal(pair.name, "high");
@@ -285,6 +287,13 @@ static void pairs_give_regions_and_come_back(void** state) {
   assert_int_equal(hf_gltf_pairs_read(model, model, text, count, &again), HF_OK);
   assert_int_equal(hf_gltf_pairs_get_info(again, &info), HF_OK);
   assert_int_equal(info.pair_count, 2);
+  static const char wet[] =
+      "{\"settings\": {\"ground\": false}, \"pairs\": [{\"name\": \"a\", \"both\": {\"vertices\": [0]}}]}";
+  hf_gltf_pairs swimming;
+  assert_int_equal(hf_gltf_pairs_read(model, model, wet, sizeof wet - 1, &swimming), HF_OK);
+  assert_int_equal(hf_gltf_pairs_get_info(swimming, &info), HF_OK);
+  assert_int_equal(info.ground, HF_GROUND_OFF);
+  hf_gltf_pairs_destroy(swimming);
   /* a strip is no creature */
   hf_gltf_pairs none = pairs;
   assert_int_equal(hf_gltf_pairs_propose(model, model, NULL, &none), HF_ERROR_EMPTY);

@@ -3,13 +3,14 @@ use crate::deformed::{DeformedMesh, Part};
 use crate::shading::Shading;
 use crate::{DeformError, DeformHandle, Deformer, Places, place_in};
 use bevy::asset::RenderAssetUsages;
+use bevy::ecs::entity::EntityHashMap;
 use bevy::ecs::system::SystemParam;
 use bevy::log::warn;
 use bevy::math::{Affine3A, Vec3A};
 use bevy::mesh::skinning::{SkinnedMesh, SkinnedMeshInverseBindposes};
 use bevy::mesh::{PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::*;
-use hf::raw::{HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE};
+use hf::raw::{HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_NO_INDEX};
 
 /// What a deformer reads of the entities below it.
 #[derive(SystemParam)]
@@ -20,6 +21,7 @@ pub(crate) struct Below<'w, 's> {
     shown: Query<'w, 's, (&'static Mesh3d, Option<&'static SkinnedMesh>)>,
     places: Places<'w, 's>,
     skins: Option<Res<'w, Assets<SkinnedMeshInverseBindposes>>>,
+    names: Query<'w, 's, &'static Name>,
 }
 
 /// All meshes of a deformer, one behind the other.
@@ -30,6 +32,17 @@ struct Soup {
     normals: Vec<Vec3>,
     tangents: Vec<Vec3>,
     parts: Vec<(Part, Mesh)>,
+    /// of all skins
+    joints: Vec<Entity>,
+    /// four joints of each vertex, and their weights
+    influences: Vec<u32>,
+    weights: Vec<f32>,
+}
+
+/// The joints of the skins below a deformer, and the skeleton that they were when it was bound.
+pub(crate) struct Joints {
+    pub(crate) entities: Vec<Entity>,
+    pub(crate) skeleton: hf::Skeleton,
 }
 
 fn refuse(code: i32, message: &str) -> hf::Error {
@@ -54,6 +67,9 @@ pub(crate) fn bind(
         });
         match made {
             Ok(Some((surface, pose, soup))) => {
+                let joints = below.skeleton(root, &soup).and_then(|made| {
+                    made.inspect_err(|error| warn!("deformer {root}: handles are proposed without its skeleton: {error}")).ok()
+                });
                 let shading = Shading::new(soup.positions.as_chunks().0, &soup.triangles, soup.normals, soup.tangents);
                 let mut parts = vec![];
                 for (mut part, mesh) in soup.parts {
@@ -62,7 +78,7 @@ pub(crate) fn bind(
                     commands.entity(part.entity).insert(Mesh3d(part.shown.clone())).remove::<SkinnedMesh>();
                     parts.push(part);
                 }
-                commands.entity(root).insert(DeformedMesh::new(parts, surface, pose, soup.positions, shading));
+                commands.entity(root).insert(DeformedMesh::new(parts, surface, pose, soup.positions, shading, joints));
             }
             Ok(None) => {}
             Err(error) => {
@@ -92,6 +108,7 @@ impl Below<'_, '_> {
                 }
             }
             let place = place_in(&self.places, entity, root).unwrap_or_default();
+            let first = soup.positions.len() / 3;
             soup.take(entity, place, source, joints.as_deref()).map_err(|mut error| {
                 error.message = format!("mesh of {entity}: {}", error.message);
                 error
@@ -99,8 +116,39 @@ impl Below<'_, '_> {
             if let Some((part, _)) = soup.parts.last_mut().filter(|(part, _)| part.entity == entity) {
                 (part.original, part.skin) = (mesh.0.clone(), skin.cloned());
             }
+            soup.take_skin(first, source, skin.map_or(&[], |skin| &skin.joints));
         }
         Ok(found.then_some(soup))
+    }
+
+    /// The skeleton of all skins, in the space of `root`; `None`: there is no skin, or a joint has no place.
+    fn skeleton(&self, root: Entity, soup: &Soup) -> Option<hf::Result<Joints>> {
+        let numbers: EntityHashMap<u32> = soup.joints.iter().enumerate().map(|(number, &joint)| (joint, number as u32)).collect();
+        let (mut parents, mut rest, mut names) = (vec![], vec![], vec![]);
+        for &joint in &soup.joints {
+            let (mut above, mut place) = (joint, place_in(&self.places, joint, root)?);
+            let parent = loop {
+                let Some(parent) = self.places.get(above).ok().and_then(|(_, _, parent)| parent) else { break HF_NO_INDEX };
+                above = parent.parent();
+                if let Some(&number) = numbers.get(&above) {
+                    place = place_in(&self.places, above, root)?.inverse() * place;
+                    break number;
+                }
+            };
+            let (size, turn, at) = place.to_scale_rotation_translation();
+            parents.push(parent);
+            rest.extend([at.to_array().as_slice(), &turn.to_array(), &size.to_array()].concat());
+            names.push(self.names.get(joint).map_or("", |name| name.as_str()));
+        }
+        let skin = hf::Skin {
+            positions: Some(&soup.positions),
+            triangles: Some(&soup.triangles),
+            joints: Some(&soup.influences),
+            weights: Some(&soup.weights),
+        };
+        let options = hf::SkeletonOptions { skin: Some(skin), ..default() };
+        let made = (!parents.is_empty()).then(|| hf::Skeleton::new(Some(&names), &parents, &rest, &options))?;
+        Some(made.map(|skeleton| Joints { entities: soup.joints.clone(), skeleton }))
     }
 
     /// A joint's matrix takes a vertex to where the skin shows it in the space of `root`. `None`: not loaded yet.
@@ -112,6 +160,31 @@ impl Below<'_, '_> {
 }
 
 impl Soup {
+    /// Adds the joints and weights of the vertices from `first` on. Those without a skin have weights of 0.
+    fn take_skin(&mut self, first: usize, source: &Mesh, joints: &[Entity]) {
+        let count = self.positions.len() / 3 - first;
+        let (from, to) = (self.weights.len(), 4 * (first + count));
+        self.weights.resize(to, 0.0);
+        self.influences.resize(to, 0);
+        let (Some(VertexAttributeValues::Uint16x4(of)), Some(VertexAttributeValues::Float32x4(weights))) =
+            (source.attribute(Mesh::ATTRIBUTE_JOINT_INDEX), source.attribute(Mesh::ATTRIBUTE_JOINT_WEIGHT))
+        else {
+            return;
+        };
+        let numbers: Vec<u32> = joints
+            .iter()
+            .map(|joint| {
+                let known = self.joints.iter().position(|known| known == joint);
+                known.unwrap_or_else(|| (self.joints.push(*joint), self.joints.len() - 1).1) as u32
+            })
+            .collect();
+        let slots = of.as_flattened().iter().zip(weights.as_flattened());
+        for (at, (&joint, &weight)) in slots.enumerate().take(4 * count) {
+            let Some(&number) = numbers.get(joint as usize) else { continue };
+            (self.influences[from + at], self.weights[from + at]) = (number, weight.max(0.0));
+        }
+    }
+
     /// Adds a mesh. Meshes that are no list of triangles stay as they are.
     fn take(&mut self, entity: Entity, place: Affine3A, source: &Mesh, joints: Option<&[Mat4]>) -> hf::Result<()> {
         if source.primitive_topology() != PrimitiveTopology::TriangleList {

@@ -1,6 +1,7 @@
 //! The state of a bound deformer: its surface, its pose, and the meshes that it writes.
+use crate::bind::Joints;
 use crate::shading::Shading;
-use crate::{DeformHandle, HandleLimb, HandleRotation, Wanted};
+use crate::{DeformHandle, HandleLimb, HandleRegion, HandleRotation, Wanted};
 use bevy::ecs::entity::EntityHashMap;
 use bevy::math::{Affine3A, DQuat, DVec3, Mat3A, Vec3A};
 use bevy::mesh::VertexAttributeValues;
@@ -43,6 +44,7 @@ const AT_REST: Motion = ([0.0, 0.0, 0.0, 1.0], [0.0; 3]);
 /// A handle that the pose has, or that it refused.
 struct Grip {
     handle: DeformHandle,
+    region: Option<HandleRegion>,
     /// its number in the pose; `None`: refused
     number: Option<u32>,
     centroid: DVec3,
@@ -104,10 +106,11 @@ pub struct DeformedMesh {
     solved: Duration,
     posing: Duration,
     took: Duration,
+    joints: Option<Joints>,
 }
 
 impl DeformedMesh {
-    pub(crate) fn new(parts: Vec<Part>, surface: hf::Surface, pose: hf::Pose, rest: Vec<f32>, shading: Shading) -> Self {
+    pub(crate) fn new(parts: Vec<Part>, surface: hf::Surface, pose: hf::Pose, rest: Vec<f32>, shading: Shading, joints: Option<Joints>) -> Self {
         let tangents = if parts.iter().any(|part| part.rest_tangents.is_some()) { rest.len() / 3 } else { 0 };
         DeformedMesh {
             tangents: vec![[0.0; 3]; tangents],
@@ -126,6 +129,7 @@ impl DeformedMesh {
             solved: Duration::ZERO,
             posing: Duration::ZERO,
             took: Duration::ZERO,
+            joints,
         }
     }
 
@@ -159,9 +163,32 @@ impl DeformedMesh {
         self.grips.get(&handle).filter(|grip| grip.number.is_some()).map(|grip| grip.centroid.as_vec3())
     }
 
-    /// Places for handles, those that hold the body first (`pinned` is 1). Y points up.
+    /// The skeleton of the skins that the meshes had when they were bound; `None`: they had none.
+    pub fn skeleton(&self) -> Option<&hf::Skeleton> {
+        self.joints.as_ref().map(|joints| &joints.skeleton)
+    }
+
+    /// The entity of the joint that moves the region of a proposal.
+    pub fn joint(&self, proposal: &hf_handle_proposal) -> Option<Entity> {
+        self.joints.as_ref()?.entities.get(proposal.joint as usize).copied()
+    }
+
+    /// Places for handles, those that hold the body first (`pinned` is 1). The skeleton of the meshes gives each a joint, a role
+    /// and a side. Without it y points up.
     pub fn propose_handles(&self) -> hf::Result<Vec<hf_handle_proposal>> {
-        self.surface.propose_handles(None, &default())
+        self.surface.propose_handles(None, &self.proposal_options())
+    }
+
+    /// The same, and the region of each: a head, a hand or a foot is whole.
+    pub fn propose_regions(&self) -> hf::Result<Vec<(hf_handle_proposal, HandleRegion)>> {
+        let mut owner = vec![0; self.rest.len() / 3];
+        let proposals = self.surface.propose_handles(Some(&mut owner), &self.proposal_options())?;
+        let region = |number: usize| HandleRegion((0..owner.len() as u32).filter(|&v| owner[v as usize] as usize == number).collect());
+        Ok(proposals.into_iter().enumerate().map(|(number, proposal)| (proposal, region(number))).collect())
+    }
+
+    fn proposal_options(&self) -> hf::HandleProposalsOptions<'_> {
+        hf::HandleProposalsOptions { skeleton: self.skeleton(), ..default() }
     }
 
     /// The first triangle of the posed surface on a ray; `None` when the ray misses. The ray is one of the deformer's space.
@@ -219,7 +246,9 @@ impl DeformedMesh {
     /// Removes handles that are gone or that are others now.
     fn remove(&mut self, wanted: &[Wanted]) -> bool {
         let is_wanted = |entity: &Entity, grip: &Grip| {
-            wanted.binary_search_by_key(entity, |wanted| wanted.entity).is_ok_and(|at| wanted[at].handle == grip.handle)
+            wanted
+                .binary_search_by_key(entity, |wanted| wanted.entity)
+                .is_ok_and(|at| wanted[at].handle == grip.handle && wanted[at].region == grip.region)
         };
         let gone: Vec<Entity> = self.grips.iter().filter(|(entity, grip)| !is_wanted(entity, grip)).map(|(entity, _)| *entity).collect();
         if gone.is_empty() {
@@ -236,8 +265,9 @@ impl DeformedMesh {
     /// Adds handles that are new: those of a layer at once, or one by one when one of them is refused.
     fn add(&mut self, wanted: &[Wanted]) -> bool {
         let mut new: Vec<&Wanted> = wanted.iter().filter(|wanted| !self.grips.contains_key(&wanted.entity)).collect();
-        new.sort_by_key(|wanted| wanted.handle.layer);
-        for layer in new.chunk_by(|a, b| a.handle.layer == b.handle.layer) {
+        let kind = |wanted: &&Wanted| (wanted.handle.layer, wanted.region.is_some());
+        new.sort_by_key(kind);
+        for layer in new.chunk_by(|a, b| kind(a) == kind(b)) {
             if self.add_batch(layer).is_err() {
                 for one in layer {
                     if let Err(error) = self.add_batch(&[one]) {
@@ -253,8 +283,12 @@ impl DeformedMesh {
     fn add_batch(&mut self, batch: &[&Wanted]) -> hf::Result<()> {
         let points: Vec<f64> = batch.iter().flat_map(|wanted| wanted.handle.point.as_dvec3().to_array()).collect();
         let radii: Vec<f64> = batch.iter().map(|wanted| wanted.handle.radius as f64).collect();
-        let options = hf::HandlesOptions { points: Some(&points), radii: Some(&radii), layer: batch[0].handle.layer, ..default() };
-        let numbers = self.pose.add_handles(None, &options)?;
+        let mut options = hf::HandlesOptions { layer: batch[0].handle.layer, ..default() };
+        let regions: Vec<&[u32]> = batch.iter().filter_map(|wanted| wanted.region.as_ref()).map(|region| &region.0[..]).collect();
+        if regions.is_empty() {
+            (options.points, options.radii) = (Some(&points), Some(&radii));
+        }
+        let numbers = self.pose.add_handles((!regions.is_empty()).then_some(&regions[..]), &options)?;
         for (wanted, number) in batch.iter().zip(numbers) {
             let centroid = DVec3::from_array(self.pose.handle(number)?.centroid);
             self.keep(wanted, Some(number), centroid);
@@ -265,7 +299,8 @@ impl DeformedMesh {
 
     fn keep(&mut self, wanted: &Wanted, number: Option<u32>, centroid: DVec3) {
         let (free, turned, offset, limb) = (false, false, DQuat::IDENTITY, default());
-        let grip = Grip { handle: wanted.handle, number, centroid, transform: AT_REST, free, turned, offset, limb, failed: false };
+        let region = wanted.region.clone();
+        let grip = Grip { handle: wanted.handle, region, number, centroid, transform: AT_REST, free, turned, offset, limb, failed: false };
         self.grips.insert(wanted.entity, grip);
     }
 

@@ -16,6 +16,7 @@ use bevy::log::warn;
 use bevy::math::Affine3A;
 use bevy::prelude::*;
 use bevy::transform::TransformSystems;
+use std::sync::Arc;
 
 /// Adds the systems that bind, pose and write meshes, in `PostUpdate` after transforms are propagated.
 ///
@@ -110,6 +111,11 @@ impl Default for HandleLimb {
     }
 }
 
+/// The vertices of the region of a [`DeformHandle`], of the surface and in ascending order, in place of its radius. The plugin
+/// proposes them: [`DeformedMesh::propose_regions`].
+#[derive(Component, Clone, Debug, PartialEq, Eq)]
+pub struct HandleRegion(pub Arc<[u32]>);
+
 /// Who says how the region of a [`DeformHandle`] is turned.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum HandleRotation {
@@ -150,18 +156,20 @@ struct Wanted {
     handle: DeformHandle,
     rotation: HandleRotation,
     limb: HandleLimb,
+    region: Option<HandleRegion>,
     place: Affine3A,
 }
 
 fn pose_meshes(
     mut deformed: Query<(Entity, &mut DeformedMesh, &Deformer)>,
-    handles: Query<(Entity, &DeformHandle, &HandleRotation, &HandleLimb)>,
+    handles: Query<(Entity, &DeformHandle, &HandleRotation, &HandleLimb, Option<&HandleRegion>)>,
     places: Places,
 ) {
     let mut wanted: EntityHashMap<Vec<Wanted>> = default();
-    for (entity, &handle, &rotation, &limb) in &handles {
+    for (entity, &handle, &rotation, &limb, region) in &handles {
         if let Some(place) = place_in(&places, entity, handle.deformer) {
-            wanted.entry(handle.deformer).or_default().push(Wanted { entity, handle, rotation, limb, place });
+            let region = region.cloned();
+            wanted.entry(handle.deformer).or_default().push(Wanted { entity, handle, rotation, limb, region, place });
         }
     }
     // a pose depends on the order in which its handles are added, and a query has none

@@ -11,12 +11,14 @@
 # set_following(head, 0.25) says how much of the body follows; keep_lengths(head) keeps the lengths of its limb.
 extends MeshInstance3D
 
+const Joints = preload("res://addons/hf/hf_retarget.gd")
 
 var surface = null
 # Node3D -> { number, rest, layer, seen: the transform of the last update, free, given: the node was turned, turn: the rotation
 # of the handle where the node has none, following, limb: the steps that keep its lengths }
 var handles = {}
 var arrays = []
+var triangles = null # counter-clockwise
 var last = []
 
 # The first mesh in a scene, an imported glb for one; null when there is none.
@@ -36,16 +38,16 @@ const LENGTH_STEPS = 8
 func bind(options = {}):
 	surface = HfSurface.new()
 	arrays = mesh.surface_get_arrays(0)
-	var triangles = arrays[Mesh.ARRAY_INDEX]
-	if triangles == null:
-		triangles = range(arrays[Mesh.ARRAY_VERTEX].size())
+	var corners = arrays[Mesh.ARRAY_INDEX]
+	if corners == null:
+		corners = range(arrays[Mesh.ARRAY_VERTEX].size())
 	# Godot's triangles are clockwise, the library's counter-clockwise
-	var turned = PackedInt32Array(triangles)
-	for i in range(0, turned.size(), 3):
-		var keep = turned[i + 1]
-		turned[i + 1] = turned[i + 2]
-		turned[i + 2] = keep
-	return said(surface.create(arrays[Mesh.ARRAY_VERTEX], turned, options))
+	triangles = PackedInt32Array(corners)
+	for i in range(0, triangles.size(), 3):
+		var keep = triangles[i + 1]
+		triangles[i + 1] = triangles[i + 2]
+		triangles[i + 2] = keep
+	return said(surface.create(arrays[Mesh.ARRAY_VERTEX], triangles, options))
 
 func said(result):
 	if result == null:
@@ -57,12 +59,14 @@ func said(result):
 # in_place: the node starts where the posed mesh stands, and the mesh stays; else both start at rest.
 func add_handle(point, radius, layer = 0, in_place = false):
 	var numbers = surface.add_handles_at([point], [radius], layer, in_place)
-	if not said(numbers):
-		return null
-	var info = surface.handle_info(numbers[0])
+	return handle_of(numbers[0], layer, in_place) if said(numbers) else null
+
+# The node of a handle that the surface has.
+func handle_of(number, layer, in_place):
+	var info = surface.handle_info(number)
 	var handle = Node3D.new()
 	handle.transform.origin = Vector3(info.x, info.y, info.z)
-	handles[handle] = { "number": numbers[0], "rest": handle.transform, "layer": layer, "free": false, "given": false,
+	handles[handle] = { "number": number, "rest": handle.transform, "layer": layer, "free": false, "given": false,
 		"turn": Quaternion(0, 0, 0, 1), "following": 1.0, "limb": 0 }
 	if in_place:
 		handle.transform = Transform3D(Basis(rotation_of(info)), handle.transform.origin + Vector3(info.translation_x, info.translation_y,
@@ -71,9 +75,63 @@ func add_handle(point, radius, layer = 0, in_place = false):
 	add_child(handle)
 	return handle
 
-# Adds a handle that the library proposes. row: of surface.propose_handles(). Returns the node, or null with a warning.
+# Returns the rows of surface.propose_handles(). With a Skeleton3D that moves the mesh each has the name of its bone, a role
+# and a side (hf/skeleton.h), and the vertices of its region: a head, a hand or a foot is whole. skin: of the MeshInstance3D
+# that shows the mesh, or null where its bones are those of the skeleton. Returns null with a warning that says why not.
+func propose(skeleton = null, skin = null):
+	var rows = null
+	if skeleton == null or arrays[Mesh.ARRAY_BONES] == null:
+		rows = surface.propose_handles()
+		return rows if said(rows) else null
+	var joints = Joints.joints_of(skeleton)
+	var numbers = arrays[Mesh.ARRAY_BONES]
+	if skin != null:
+		# the mesh has the frame and the unit in which the skin was bound
+		var bones = []
+		for bind in skin.get_bind_count():
+			bones.append(bone_of(skeleton, skin, bind))
+		var to_mesh = skin.get_bind_pose(0).affine_inverse() * rest_of(skeleton, bones[0]).affine_inverse()
+		for bone in skeleton.get_bone_count():
+			if joints[1][bone] < 0:
+				Joints.put(joints[2], 10 * bone, to_mesh * skeleton.get_bone_rest(bone))
+		var moved = []
+		for number in numbers:
+			moved.append(bones[number])
+		numbers = moved
+	var weights = arrays[Mesh.ARRAY_WEIGHTS]
+	rows = surface.propose_handles(joints[0], joints[1], joints[2], arrays[Mesh.ARRAY_VERTEX], triangles, numbers, weights)
+	if not said(rows):
+		return null
+	var regions = surface.proposed_regions()
+	for i in rows.size():
+		rows[i].bone = skeleton.get_bone_name(int(rows[i].joint)) if rows[i].joint >= 0 else ""
+		rows[i].region = regions[i]
+	return rows
+
+# The bone of a bind, which Godot 4 names.
+func bone_of(skeleton, skin, bind):
+	var bone = skin.get_bind_bone(bind)
+	if bone < 0 and skin.has_method("get_bind_name"):
+		bone = skeleton.find_bone(skin.call("get_bind_name", bind))
+	return max(bone, 0)
+
+# The rest of a bone in the space of the skeleton.
+func rest_of(skeleton, bone):
+	var rest = skeleton.get_bone_rest(bone)
+	while skeleton.get_bone_parent(bone) >= 0:
+		bone = skeleton.get_bone_parent(bone)
+		rest = skeleton.get_bone_rest(bone) * rest
+	return rest
+
+# Adds a handle that the library proposes. row: of propose(), or of surface.propose_handles(). Returns the node, or null with a
+# warning.
 func add_proposed(row):
-	var handle = add_handle(arrays[Mesh.ARRAY_VERTEX][row.vertex], row.radius)
+	var handle = null
+	if row.has("region"):
+		var numbers = surface.add_handles([row.region])
+		handle = handle_of(numbers[0], 0, false) if said(numbers) else null
+	else:
+		handle = add_handle(arrays[Mesh.ARRAY_VERTEX][row.vertex], row.radius)
 	if handle != null and row.following < 1:
 		set_following(handle, row.following)
 	return handle

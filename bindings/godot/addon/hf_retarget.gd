@@ -43,7 +43,7 @@ func said(surface, result):
 	return result != null
 
 # Returns the names (one per line), the parents and the rests of the bones.
-func joints_of(skeleton):
+static func joints_of(skeleton):
 	var names = ""
 	var parents = []
 	var rests = []
@@ -55,7 +55,7 @@ func joints_of(skeleton):
 	return [names.trim_suffix("\n"), parents, rests]
 
 # Writes translation, rotation x y z w and scale of a transform into a list, from position `at` on.
-func put(list, at, transform):
+static func put(list, at, transform):
 	var turn = transform.basis.get_rotation_quaternion()
 	var size = transform.basis.get_scale()
 	for k in 3:

@@ -138,4 +138,24 @@ inline Value vectors(const Doubles& numbers) {
   return value;
 }
 
+// A skeleton of a script's names (a line for each joint), parents (-1: none) and rest (10 numbers for each joint).
+// skin: of the mesh, or null.
+inline hf::Handle<hf_skeleton, hf_skeleton_destroy> skeleton_of(const Argument& names, const Argument& parents,
+                                                                const Argument& rest,
+                                                                const hf_skin_desc* skin = nullptr) {
+  auto desc = make<hf_skeleton_desc>();
+  Numbers above;
+  for (double parent : parents.list) above.push_back(parent == -1 ? HF_NO_INDEX : whole(parent, "parents"));
+  if (rest.list.size() != 10 * above.size()) fail("rest must hold 10 numbers for each joint");
+  const std::vector<float> joints(rest.list.begin(), rest.list.end());
+  desc.joint_count = static_cast<uint32_t>(above.size());
+  desc.names = names.null ? nullptr : names.text.c_str();
+  desc.parents = above.data();
+  desc.rest = joints.data();
+  desc.skin = skin;
+  hf_skeleton raw = nullptr;
+  check(hf_skeleton_create(&desc, &raw));
+  return hf::Handle<hf_skeleton, hf_skeleton_destroy>(raw);
+}
+
 }  // namespace hf_godot

@@ -78,12 +78,14 @@ struct Surface {
     flow = {};
     region = {};
     detail = {};
+    proposed = {};
   }
   size_t vertex_count = 0;
-  size_t target_count = 0;     // vertices of the transfer's target
-  size_t target_joints = 0;    // numbers of the joints of the retarget's target
-  std::vector<float> normals;  // of the last deform
-  std::vector<float> joints;   // of the source of the retarget, as the library wants them
+  size_t target_count = 0;        // vertices of the transfer's target
+  size_t target_joints = 0;       // numbers of the joints of the retarget's target
+  std::vector<float> normals;     // of the last deform
+  std::vector<Numbers> proposed;  // vertices of each proposed handle
+  std::vector<float> joints;      // of the source of the retarget, as the library wants them
   // the last failure, for scripts that have no exceptions
   std::string error_name, error_message;
   double error_index = -1;

@@ -149,19 +149,54 @@ Value find_extremities(Surface& s, const Arguments&) {
       });
 }
 
-// propose_handles(): { vertex, reason, pinned, radius, following } each, pinned ones first
-Value propose_handles(Surface& s, const Arguments&) {
-  return table_of<hf_handle_proposal>(
+// propose_handles(names = null, parents, rest, positions, triangles, joints, weights): rows of vertex, reason, pinned,
+// radius, following, joint (-1: none), role, side, and x, y, z of the place; pinned ones first. The arguments are those
+// of a skeleton, as for retarget_create, and of the skin: as many joints and weights for each vertex of the mesh.
+Value propose_handles(Surface& s, const Arguments& a) {
+  auto desc = make<hf_handle_proposals_desc>();
+  hf::Handle<hf_skeleton, hf_skeleton_destroy> skeleton;
+  Numbers regions(s.vertex_count, HF_NO_INDEX);
+  if (at(a, 1).list.size() > 0) {
+    const std::vector<float> positions(at(a, 3).list.begin(), at(a, 3).list.end()),
+        weights(at(a, 6).list.begin(), at(a, 6).list.end());
+    const List triangles = integers(at(a, 4), "triangles"), joints = integers(at(a, 5), "joints");
+    auto skin = make<hf_skin_desc>();
+    skin.vertex_count = static_cast<uint32_t>(positions.size() / 3);
+    skin.triangle_count = static_cast<uint32_t>(triangles.values.size() / 3);
+    skin.influence_count = static_cast<uint32_t>(weights.size() / std::max<size_t>(skin.vertex_count, 1));
+    if (joints.values.size() != weights.size() || weights.size() != size_t{skin.influence_count} * skin.vertex_count)
+      fail("joints and weights must have as many numbers for each vertex");
+    skin.positions = positions.data();
+    skin.triangles = triangles.data();
+    skin.joints = joints.data();
+    skin.weights = weights.data();
+    skeleton = skeleton_of(at(a, 0), at(a, 1), at(a, 2), weights.empty() ? nullptr : &skin);
+    desc.skeleton = skeleton.get();
+  }
+  desc.out_regions = regions.data();
+  Value value = table_of<hf_handle_proposal>(
       [&](uint32_t capacity, hf_handle_proposal* out, uint32_t* count) {
-        return hf_surface_propose_handles(s.get(), nullptr, capacity, out, count);
+        return hf_surface_propose_handles(s.get(), &desc, capacity, out, count);
       },
       [](const hf_handle_proposal& p) {
-        return TableRow{{"vertex", p.vertex},
-                        {"reason", p.reason},
-                        {"pinned", p.pinned},
-                        {"radius", p.radius},
-                        {"following", p.following}};
+        return TableRow{
+            {"vertex", p.vertex}, {"reason", p.reason},       {"pinned", p.pinned},
+            {"radius", p.radius}, {"following", p.following}, {"joint", p.joint == HF_NO_INDEX ? -1.0 : p.joint},
+            {"role", p.role},     {"side", p.side},           {"x", p.position[0]},
+            {"y", p.position[1]}, {"z", p.position[2]}};
       });
+  s.proposed.assign(value.table.size(), {});
+  for (size_t v = 0; v < regions.size(); ++v)
+    if (regions[v] != HF_NO_INDEX) s.proposed[regions[v]].push_back(static_cast<uint32_t>(v));
+  return value;
+}
+
+// proposed_regions(): the vertices of each row of the last propose_handles, whole heads, hands and feet for one
+Value proposed_regions(Surface& s, const Arguments&) {
+  Value value;
+  value.kind = Value::lists;
+  value.sets = s.proposed;
+  return value;
 }
 
 // ---- the direction field of a surface: direction_create(degree = 1) replaces it
@@ -325,7 +360,8 @@ const std::vector<Entry>& field_methods() {
       {"trace_isolines", 2, 2, trace_isolines},
       {"find_critical_points", 1, 1, find_critical_points},
       {"find_extremities", 0, 0, find_extremities},
-      {"propose_handles", 0, 0, propose_handles},
+      {"propose_handles", 0, 7, propose_handles},
+      {"proposed_regions", 0, 0, proposed_regions},
       {"direction_create", 0, 1, direction_create},
       {"direction_add_sites", 2, 2, direction_add_sites},
       {"direction_record", 0, 0, direction_record},

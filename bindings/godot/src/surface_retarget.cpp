@@ -4,23 +4,6 @@
 namespace hf_godot {
 namespace {
 
-// A skeleton of a script's names (a line for each joint), parents (-1: none) and rest (10 numbers for each joint).
-hf::Handle<hf_skeleton, hf_skeleton_destroy> skeleton_of(const Argument& names, const Argument& parents,
-                                                         const Argument& rest) {
-  auto desc = make<hf_skeleton_desc>();
-  Numbers above;
-  for (double parent : parents.list) above.push_back(parent == -1 ? HF_NO_INDEX : whole(parent, "parents"));
-  if (rest.list.size() != 10 * above.size()) fail("rest must hold 10 numbers for each joint");
-  const std::vector<float> joints(rest.list.begin(), rest.list.end());
-  desc.joint_count = static_cast<uint32_t>(above.size());
-  desc.names = names.null ? nullptr : names.text.c_str();
-  desc.parents = above.data();
-  desc.rest = joints.data();
-  hf_skeleton raw = nullptr;
-  check(hf_skeleton_create(&desc, &raw));
-  return hf::Handle<hf_skeleton, hf_skeleton_destroy>(raw);
-}
-
 // retarget_create(names, parents, rest of the source, names, parents, rest of the target, options = {})
 Value retarget_create(Surface& s, const Arguments& a) {
   const auto source = skeleton_of(at(a, 0), at(a, 1), at(a, 2)), target = skeleton_of(at(a, 3), at(a, 4), at(a, 5));

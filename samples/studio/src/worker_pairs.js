@@ -47,7 +47,7 @@ export async function proposedPairs({ constants }, source, target) {
       ok('pairs_propose', from, to, struct(24, a.length, b.length, 0, space(a), space(b)), out);
       const pairs = word(out);
       handles.push(['pairs_destroy', pairs]);
-      const info = struct(84);
+      const info = struct(88);
       ok('pairs_get_info', pairs, info);
       const axes = (at) => Array.from(module.HEAPF32.subarray(at >> 2, (at >> 2) + 9));
       const found = Array.from({ length: word(info + 4) }, (_, i) => {
@@ -62,7 +62,8 @@ export async function proposedPairs({ constants }, source, target) {
         };
       });
       const scale = module.HEAPF32[(info + 80) >> 2];
-      return { pairs: found, axes: { sourceAxes: axes(info + 8), targetAxes: axes(info + 44), scale } };
+      const ground = word(info + 84);
+      return { pairs: found, axes: { sourceAxes: axes(info + 8), targetAxes: axes(info + 44), scale, ground } };
     } catch (error) {
       if (error.code === NOTHING) return { pairs: [], axes: {} };
       throw error;

@@ -1,5 +1,6 @@
 //! The Bevy layer without a window and without a renderer: assets, transforms and the plugin.
 use bevy::asset::{AssetPlugin, RenderAssetUsages};
+use bevy::math::DVec3;
 use bevy::mesh::skinning::{SkinnedMesh, SkinnedMeshInverseBindposes};
 use bevy::mesh::{Indices, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::*;
@@ -531,6 +532,63 @@ fn a_click_hits_the_posed_surface() {
     let pick = |x: f32| deformed(&app, body).pick(Vec3::new(x, 1.9, 5.0), Vec3::NEG_Z).unwrap();
     assert!(pick(2.0).is_some() && pick(0.0).is_none());
     assert!(!deformed(&app, body).propose_handles().unwrap().is_empty());
+}
+
+/// A skin of a body with a head, whose vertices the head alone moves.
+#[test]
+fn a_skeleton_names_the_proposals_and_a_head_is_whole() {
+    let mut app = app();
+    let joints = skeleton(&mut app, 1.0, 0.4);
+    let (mut positions, mut triangles, mut of) = (vec![], vec![], vec![]);
+    for (joint, (_, parent, _)) in JOINTS.iter().enumerate() {
+        let above = if *parent == 9 { joint } else { *parent };
+        let [low, high] = [above, joint].map(at_rest);
+        let (low, high) = if *parent == 9 { (low - Vec3::Y * 0.1, high + Vec3::Y * 0.1) } else { (low, high) };
+        let thick = if joint == 2 { 0.15 } else { 0.06 };
+        let (low, high) = (low.min(high) - thick, low.max(high) + thick);
+        let first = positions.len() as u32;
+        let side = |bit: usize, low: f32, high: f32| move |corner: usize| if corner >> bit & 1 == 1 { high } else { low };
+        let [x, y, z] = [(0, low.x, high.x), (1, low.y, high.y), (2, low.z, high.z)].map(|(bit, low, high)| side(bit, low, high));
+        positions.extend((0..8).map(|corner| [x(corner), y(corner), z(corner)]));
+        let faces = [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]];
+        triangles.extend(faces.into_iter().flatten().map(|corner: u32| first + corner));
+        of.extend([[joint as u16, 0, 0, 0]; 8]);
+    }
+    let count = positions.len();
+    let mesh = Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::default())
+        .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
+        .with_inserted_attribute(Mesh::ATTRIBUTE_JOINT_INDEX, VertexAttributeValues::Uint16x4(of))
+        .with_inserted_attribute(Mesh::ATTRIBUTE_JOINT_WEIGHT, vec![[1.0f32, 0.0, 0.0, 0.0]; count])
+        .with_inserted_indices(Indices::U32(triangles));
+    let mesh = add(&mut app, mesh);
+    app.update();
+    let binds: Vec<Mat4> = joints.iter().map(|&joint| app.world().get::<GlobalTransform>(joint).unwrap().to_matrix().inverse()).collect();
+    let inverse = app.world_mut().resource_mut::<Assets<SkinnedMeshInverseBindposes>>().add(binds);
+    let body = app.world_mut().spawn(Deformer::default()).id();
+    app.world_mut().entity_mut(joints[0]).insert(ChildOf(body));
+    app.world_mut().spawn((Mesh3d(mesh), SkinnedMesh { inverse_bindposes: inverse, joints: joints.clone() }, ChildOf(body)));
+    app.update();
+    assert!(deformed(&app, body).skeleton().is_some(), "{:?}", error(&app, body));
+    let proposals = deformed(&app, body).propose_regions().unwrap();
+    let (head, region) = proposals.iter().find(|(proposal, _)| proposal.role == hf_bevy::hf::raw::HF_ROLE_HEAD).expect("a head");
+    assert_eq!(deformed(&app, body).joint(head), Some(joints[2]));
+    assert!(head.pinned == 0 && proposals.iter().filter(|(one, _)| one.pinned == 1 && one.role == hf_bevy::hf::raw::HF_ROLE_FOOT).count() == 2);
+    let own = deformed(&app, body).rest().len() as u32 / 9;
+    assert_eq!(region.0.to_vec(), (2 * own..3 * own).collect::<Vec<_>>());
+    let (point, region) = (DVec3::from_array(head.position).as_vec3(), region.clone());
+    let handle = app.world_mut().spawn((DeformHandle::tip(body, point, head.radius as f32), region)).id();
+    place(&mut app, handle, Transform::from_translation(point + Vec3::Y * 0.1).with_rotation(Quat::from_rotation_y(0.5)));
+    settle(&mut app);
+    let (rest, posed) = (deformed(&app, body).rest().to_vec(), deformed(&app, body).posed().to_vec());
+    let between = |at: &[[f32; 3]], a: usize, b: usize| Vec3::from_array(at[a]).distance(Vec3::from_array(at[b]));
+    let (first, last) = (2 * own as usize, 3 * own as usize - 1);
+    assert!((between(&rest, first, last) - between(&posed, first, last)).abs() < 1e-4, "a whole head keeps its shape");
+}
+
+/// Where a joint of [`skeleton`] stands at rest.
+fn at_rest(joint: usize) -> Vec3 {
+    let (_, parent, place) = JOINTS[joint];
+    Vec3::from_array(place) + if parent == 9 { Vec3::ZERO } else { at_rest(parent) }
 }
 
 /// A flat body of squares: a trunk from y = 0 to 12, and an arm to x = 12 at its shoulder.

@@ -66,8 +66,17 @@ struct Host {
       for (const uint32_t k : {f[0], f[1], f[2], f[0], f[2], f[3]}) triangles.push_back(first + k);
     }
   }
-  hf::Surface surface() const {
+  hf::Surface surface(bool linked = false) const {
     hf_surface_desc desc = HF_INIT(hf_surface_desc);
+    const std::vector<uint16_t> of(joints.begin(), joints.end());
+    hf_links_desc links = HF_INIT(hf_links_desc);
+    links.mode = HF_LINK_PIECES;
+    links.influence_count = slots;
+    links.joints = of.data();
+    links.weights = weights.data();
+    links.joint_parents = parents.data();
+    links.joint_count = static_cast<uint32_t>(parents.size());
+    if (linked) desc.links = &links;
     desc.positions = HF_ARRAY(positions.data(), vertex_count());
     desc.triangles = HF_ARRAY(triangles.data(), triangles.size() / 3);
     return hf::Surface(desc);
@@ -375,6 +384,60 @@ TEST(CharacterHandles, AHeadThatIsDraggedLeavesTheChestOfAnUprightBody) {
   ASSERT_GT(count, 20);
   std::printf("%.0f vertices of the chest rise by %.5f of the drag\n", count, rise / count / 0.3);
   EXPECT_LT(rise / count, 0.005 * 0.3);
+}
+
+// A head of its own on a body whose neck was cut off: the trunk holds far from it, so that its upper part is drawn out.
+TEST(CharacterHandles, AHeadWithoutANeckDrawsOutTheUpperPartOfTheTrunk) {
+  Host host("biped");
+  const Found whole = propose(host);
+  std::set<uint32_t> head, spine;
+  uint32_t skull = HF_NO_INDEX;
+  for (uint32_t j = 0; j < host.names.size(); ++j) {
+    const int32_t role = whole.joints[j].role;
+    if (role == HF_ROLE_NECK || role == HF_ROLE_HEAD || role == HF_ROLE_JAW || role == HF_ROLE_EAR) head.insert(j);
+    if (role == HF_ROLE_SPINE) spine.insert(j);
+    if (role == HF_ROLE_HEAD && skull == HF_NO_INDEX) skull = j;
+  }
+  ASSERT_NE(skull, HF_NO_INDEX);
+  std::vector<uint32_t> kept;
+  std::array<float, 3> rim = {0, 0, 0};
+  float count = 0;
+  for (size_t t = 0; t < host.triangles.size(); t += 3) {
+    const uint32_t* corner = &host.triangles[t];
+    const auto stays = [&](uint32_t v) { return host.weight(v, head) < 0.2; };
+    if (std::all_of(corner, corner + 3, stays)) kept.insert(kept.end(), corner, corner + 3);
+    for (size_t k = 0; k < 3; ++k) {
+      if (std::all_of(corner, corner + 3, stays) || !stays(corner[k])) continue;
+      for (size_t c = 0; c < 3; ++c) rim[c] += host.positions[3 * corner[k] + c];
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 0);
+  for (float& c : rim) c /= count;
+  host.triangles = kept;
+  constexpr float half = 0.12f;
+  host.add_box({rim[0], rim[1] + half + 0.01f, rim[2]}, half, skull);
+  const Found found = propose(host, host.surface(true));
+  const uint32_t trunk = found.of_role(HF_ROLE_SPINE, HF_SIDE_MIDDLE);
+  ASSERT_NE(trunk, HF_NO_INDEX);
+  ASSERT_EQ(found.list[trunk].pinned, 1);
+  const auto off = [&](uint32_t v) {
+    const float* p = &host.positions[3 * size_t{v}];
+    return std::hypot(p[0] - rim[0], p[1] - rim[1], p[2] - rim[2]);
+  };
+  float nearest = 1e9f, far = 0;
+  const std::vector<uint32_t> held = found.region(trunk);
+  EXPECT_GT(held.size(), 20u);
+  for (const uint32_t v : held) nearest = std::min(nearest, off(v));
+  for (const uint32_t v : kept) {
+    if (host.weight(v, spine) > 0.5) far = std::max(far, off(v));
+  }
+  std::printf("the trunk holds from %.3f of %.3f\n", static_cast<double>(nearest), static_cast<double>(far));
+  EXPECT_GT(nearest, 0.65f * far);
+  // with its neck, the body holds its chest
+  float chest = 1e9f;
+  for (const uint32_t v : whole.region(whole.of_role(HF_ROLE_SPINE, HF_SIDE_MIDDLE))) chest = std::min(chest, off(v));
+  EXPECT_LT(chest, 0.3f * far);
 }
 
 // A knot of the tail is a piece of its own, with two ends.

@@ -94,6 +94,7 @@ struct Robot {
     LinkOptions options;
     options.mode = LinkMode::pieces;
     options.distance = default_link_distance;
+    options.overlay = overlay;
     options.skin = {1, vertex_joint.data(), vertex_weight.data(), {}};
     if (skeleton) options.skin.parents = parents;
     return make_links(shape->mesh, shape->areas, options, *shape->memory, nullptr);
@@ -122,6 +123,7 @@ struct Robot {
 
   std::mt19937 random;
   bool mirrored = false;
+  double overlay = 0;  // no piece is light
   PlainMesh mesh;
   std::shared_ptr<const Geometry> shape;
   int parts = 0;
@@ -172,6 +174,51 @@ TEST(RobotLinks, parent_and_child_that_the_tree_does_not_need_are_linked) {
     if (round) robot.turn_round();
     EXPECT_EQ(robot.pairs_of(robot.link(true)->links).count({foot, plate}), 1u) << round;
   }
+}
+
+// One point would draw a chest out to a spike where its head is pulled.
+TEST(RobotLinks, a_joint_holds_all_around_its_contact) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    Robot robot(seed);
+    const auto extent = [&](bool skeleton, std::size_t& count) {
+      const auto links = robot.link(skeleton);
+      double low = 1e300, high = -1e300;
+      for (const Link& link : links->links) {
+        const std::set<int> ends = {robot.part(link.vertex),
+                                    robot.part(*std::max_element(link.corner, link.corner + 3))};
+        if (ends != std::set<int>{0, 1}) continue;  // pelvis and torso
+        const double x = robot.mesh.positions[3 * at(robot.shape->mesh.given_of_inner[at(link.vertex)])];
+        low = std::min(low, x);
+        high = std::max(high, x);
+        ++count;
+      }
+      return high - low;
+    };
+    std::size_t known = 0, plain = 0;
+    EXPECT_GT(extent(true, known), 0.35) << "seed " << seed;  // the pelvis is 0.4 wide
+    EXPECT_GE(known, 8u);
+    extent(false, plain);
+    EXPECT_LE(plain, 2u) << "a hinge without a skeleton";
+  }
+}
+
+// A sheet on an arm, longer than the arm. Its end is near a horn of the head.
+TEST(RobotLinks, a_light_piece_links_to_no_stranger) {
+  Robot robot;
+  const int body = robot.add(-1, {0, 0, 0}, {0.4, 1, 0.4}), arm = robot.add(body, {0.402, 0.7, 0}, {1.2, 0.8, 0.1}),
+            head = robot.add(body, {0, 1.002, 0}, {1.5, 1.3, 0.4}),
+            horn = robot.append_box({1.32, 0.75, 0}, {1.42, 1, 0.1}, head),
+            sheet = robot.append_box({0.45, 0.803, 0}, {1.3, 0.813, 0.1}, arm);
+  robot.vertex_weight.assign(robot.part_of.size(), 1.0f);
+  robot.overlay = default_overlay;
+  const auto links = robot.link(true);
+  const auto first = std::find(robot.part_of.begin(), robot.part_of.end(), sheet) - robot.part_of.begin();
+  const Index inner = robot.shape->mesh.inner_of_given[static_cast<std::size_t>(first)];
+  ASSERT_EQ(links->light[at(links->piece[at(inner)])], 1);
+  const Robot::Pairs pairs = robot.pairs_of(links->links);
+  EXPECT_EQ(pairs.count({horn, sheet}), 0u);
+  EXPECT_EQ(pairs.count({arm, sheet}), 1u);
+  EXPECT_EQ(robot.pairs_of(robot.link(false)->links).count({horn, sheet}), 1u) << "it is near";
 }
 
 TEST(RobotLinks, contacts_of_strangers_are_noted_and_have_no_spring) {

@@ -173,6 +173,113 @@ json played(const char* source, const char* clip, const char* target, const char
   return out;
 }
 
+// A fish of boxes, one for each joint, and a clip in which it dives and flaps.
+hf_gltf::Model diving_fish() {
+  struct Bone {
+    const char* name;
+    int parent;
+    glm::dvec3 at, to;
+    double thick;
+  };
+  std::vector<Bone> bones = {{"Spine1", -1, {0, 1, 0}, {0, 1, 0.5}, 0.2},
+                             {"Head", 0, {0, 1, 0.5}, {0, 1, 0.9}, 0.2},
+                             {"Tail1", 0, {0, 1, 0}, {0, 1, -0.7}, 0.08},
+                             {"Tail2", 2, {0, 1, -0.7}, {0, 1, -1.3}, 0.05}};
+  for (const double s : {1.0, -1.0}) {
+    const int first = static_cast<int>(bones.size());
+    bones.push_back({s > 0 ? "TopFlipper.L" : "TopFlipper.R", 0, {0.2 * s, 1, 0.2}, {0.7 * s, 0.95, 0.15}, 0.06});
+    bones.push_back({s > 0 ? "MidFlipper.L" : "MidFlipper.R", first, {0.7 * s, 0.95, 0.15}, {1.2 * s, 0.8, 0.1}, 0.04});
+    bones.push_back(
+        {s > 0 ? "BottomFlipper.L" : "BottomFlipper.R", first + 1, {1.2 * s, 0.8, 0.1}, {1.5 * s, 0.6, 0}, 0.03});
+  }
+  std::vector<glm::dvec3> points;
+  std::vector<uint32_t> triangles;
+  for (const Bone& bone : bones) {
+    const auto first = static_cast<uint32_t>(points.size());
+    const glm::dvec3 low = glm::min(bone.at, bone.to) - bone.thick, high = glm::max(bone.at, bone.to) + bone.thick;
+    for (int k = 0; k < 8; ++k)
+      points.emplace_back(k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z);
+    for (const uint32_t corner :
+         {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5})
+      triangles.push_back(first + corner);
+  }
+  hf_gltf::Model model = hf_gltf::make_model("fish", points, triangles);
+  hf_gltf::Skin skin;
+  hf_gltf::Animation dive;
+  dive.name = "dive";
+  const auto channel = [&](int node, hf_gltf::Path path, size_t width, std::vector<float> values) {
+    hf_gltf::Channel out;
+    out.node = node;
+    out.path = path;
+    out.width = width;
+    out.times = {0, 0.5f, 1};
+    out.values = std::move(values);
+    dive.channels.push_back(out);
+  };
+  for (size_t b = 0; b < bones.size(); ++b) {
+    hf_gltf::Node node;
+    node.name = bones[b].name;
+    node.parent = bones[b].parent < 0 ? -1 : bones[b].parent + 1;
+    node.translation =
+        glm::vec3(bones[b].at - (bones[b].parent < 0 ? glm::dvec3(0) : bones[size_t(bones[b].parent)].at));
+    const int number = static_cast<int>(model.nodes.size());
+    if (node.parent < 0)
+      model.scene_roots.push_back(number);
+    else
+      model.nodes[static_cast<size_t>(node.parent)].children.push_back(number);
+    model.nodes.push_back(node);
+    skin.joints.push_back(number);
+    glm::mat4 inverse(1);
+    inverse[3] = glm::vec4(glm::vec3(-bones[b].at), 1);
+    skin.inverse_bind.push_back(inverse);
+    if (b == 0) channel(number, hf_gltf::Path::translation, 3, {0, 1, 0, 0, 0.6f, 0.5f, 0, 1, 1});
+    const float up = node.name == "TopFlipper.L" ? 0.26f : node.name == "TopFlipper.R" ? -0.26f : 0;
+    if (up != 0)
+      channel(number, hf_gltf::Path::rotation, 4, {0, 0, 0, 1, 0, 0, up, std::sqrt(1 - up * up), 0, 0, 0, 1});
+  }
+  if (!model.scenes.empty()) model.scenes[model.shown_scene].roots = model.scene_roots;
+  model.nodes[0].skin = 0;
+  model.skins.push_back(skin);
+  for (size_t v = 0; v < points.size(); ++v) {
+    hf_gltf::Influences influences;
+    influences.joints[0] = static_cast<uint16_t>(v / 8);
+    influences.weights[0] = 1;
+    model.meshes[0].primitives[0].influences.push_back(influences);
+  }
+  model.animations.push_back(dive);
+  return model;
+}
+
+// Nothing is under a fish, so a body that dives with it is not deep in the ground, and nothing lifts it.
+TEST(TransferWay, AFishHasNoGroundWhicheverBodyItIs) {
+  const hf_gltf::Model fish = diving_fish();
+  hf_gltf::Model still = rigged("biped_tall");
+  still.animations.clear();
+  std::string said;
+  const fs::path report = folder() / "dive.json";
+  ASSERT_EQ(transfer(quoted(written(fish, "fish.glb")) + " " + quoted(written(still, "still.glb")) +
+                         " --way skeleton -o " + quoted(folder() / "dive.glb") + " --json " + quoted(report),
+                     said),
+            0)
+      << said;
+  const json clip = read_json(report)["clips"][0];
+  EXPECT_EQ(clip["faults"]["sunk"], 0);
+  EXPECT_EQ(clip["depth"], 0);
+  EXPECT_FALSE(has(said, "under the ground")) << said;
+  const hf_gltf::Model made = hf_gltf::read_gltf(folder() / "dive.glb");
+  const hf_gltf::FlatMesh mesh = hf_gltf::flatten(made);
+  const auto lowest = [&](double time) {
+    double low = 1e300;
+    for (const glm::dvec3& p : hf_gltf::posed_positions(made, mesh, made.animations[0], time)) low = std::min(low, p.y);
+    return low;
+  };
+  std::printf("lowest %.4f, in the dive %.4f\n", lowest(0), lowest(0.5));
+  EXPECT_LT(lowest(0.5), lowest(0) - 0.05);
+  // and as the target of a walk
+  const json on_fish = walked(folder() / "fish.glb", "on_fish", "--way skeleton");
+  EXPECT_EQ(on_fish["clips"][0]["faults"]["sunk"], 0);
+  EXPECT_FALSE(has(on_fish["said"], "under the ground")) << on_fish["said"];
+}
 // A person on a machine with bird's legs floats when its legs point as the person's. With its feet on the scaled path
 // it stands. Another one hardly stands on that path, and keeps the way its legs point.
 TEST(TransferWay, OfTwoMotionsOfTheFeetTheBetterOneIsWritten) {

@@ -96,6 +96,23 @@ TEST(Landmarks, FinsAreNoFeetAndHornsNoHands) {
   EXPECT_LT(found.get("tail")->position.z, -1.9);
 }
 
+// Without names the shape says so: the only limbs at the ground reach farther aside than down.
+TEST(Landmarks, ARayWithoutNamesLiesOnFins) {
+  Rig rig = make_ray();
+  for (std::size_t j = 0; j < rig.joints.size(); ++j) rig.joints[j].name = std::to_string(j);
+  const Landmarks found = landmarks_of(model_of(rig));
+  EXPECT_TRUE(found.known.knows_parts());
+  EXPECT_TRUE(found.known.swims());
+  EXPECT_EQ(found.get("foot left"), nullptr);
+  EXPECT_NE(found.get("fin left"), nullptr);
+  // a tyrannosaur without names stands on the only limbs at the ground
+  Rig beast = make_beast("tyrannosaur", true);
+  for (std::size_t j = 0; j < beast.joints.size(); ++j) beast.joints[j].name = std::to_string(j);
+  const Landmarks legs = landmarks_of(model_of(beast));
+  EXPECT_FALSE(legs.known.swims());
+  EXPECT_NE(legs.get("foot left"), nullptr);
+}
+
 TEST(Landmarks, TheTipOfAWingIsNoHand) {
   const Landmarks found = landmarks_of(model_of(make_beast("bird", true)));
   EXPECT_FALSE(found.known.swims());
