@@ -204,7 +204,7 @@ export default async function story(host) {
     )[0];
     await page.mouse.click(near[0], near[1]);
     await studio.settle();
-    assert.match(await studio.told(), /add a handle: /);
+    assert.match(await studio.told(), /^add a handle: a handle overlaps another; put it farther away/);
     assert.equal((await studio.facts()).handles, '6');
     assert.equal(await studio.bits(), before);
   });

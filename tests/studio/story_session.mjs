@@ -125,7 +125,7 @@ export default async function story(host) {
       await page.reload();
       await studio.ready();
       await page.waitForSelector('#card[open]');
-      assert.match(await page.textContent('#card'), /last session with horse.glb is not whole.*(overlap|belongs to handle)/);
+      assert.match(await page.textContent('#card'), /last session with horse.glb is not whole.*a handle overlaps another/);
       if (!visit) await studio.picture('session_waits', { kept: false });
       await page.click('#card button:text-is("Close")');
       // the body is there, as it opens, and can be posed
@@ -248,7 +248,7 @@ export default async function story(host) {
       const { state } = window.hfStudio;
       return window.hfStudio.commit({ ...state, handles: [...state.handles, { ...state.handles[0], id: 'twice' }] }, 'add a handle');
     });
-    assert.match(await page.textContent('#matters'), /overlap/);
+    assert.match(await page.textContent('#matters'), /^add a handle: a handle overlaps another; put it farther away/);
     await studio.picture('message_matters');
     await page.waitForFunction(() => document.getElementById('told').textContent === '', null, { timeout: 30000 });
     assert.match(await page.textContent('#matters'), /overlap/);
