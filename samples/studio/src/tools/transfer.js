@@ -60,7 +60,6 @@ export const tool = (kit) => {
       const taken = !pairs || (await this.set(pairs));
       await this.app.client.ask('transferDials', { dials });
       this.dials = dials;
-      if (this.app.tool !== this) this.leave();
       if (!taken) throw new Error('its pairs were refused; choose them again');
     }
     enter() {
@@ -186,8 +185,10 @@ export const tool = (kit) => {
       this.clip = clip;
       this.pairs = this.good = pairs;
       this.time = 0;
-      this.#rest();
-      this.look();
+      if (app.tool === this) {
+        this.#rest();
+        this.look();
+      } else skin.group.visible = false; // a session comes back, or another tool was opened meanwhile
       app.session?.keep('transfer', { bytes, name });
       if (pairs.length) await this.set(pairs);
     }
