@@ -149,6 +149,28 @@ export default async function story(host) {
     await studio.settle();
     assert.ok((await studio.marks()).length >= 12);
   });
+  await check('a frame that comes after Stop is not shown', async () => {
+    // a slow Worker: answers wait until they are let go
+    await page.evaluate(() => {
+      const { client } = window.hfStudio;
+      window.late = new Promise((done) => (window.letGo = done));
+      client.frame = async (...given) => {
+        const answer = await Object.getPrototypeOf(client).frame.apply(client, given);
+        await window.late;
+        return answer;
+      };
+    });
+    await page.click('#transfer-play');
+    await page.waitForFunction(() => window.hfStudio.tools.transfer.time > 0);
+    await page.click('#transfer-stop');
+    await page.evaluate(() => (delete window.hfStudio.client.frame, window.letGo()));
+    await studio.settle();
+    const moved = await page.evaluate(() => {
+      const { skin, body } = window.hfStudio;
+      return skin.positions.filter((x, i) => x !== body.positions[i]).length;
+    });
+    assert.equal(moved, 0, `${moved} coordinates are those of the walk`);
+  });
   await check('a click on a dot leaves its pair out', async () => {
     const before = (await studio.facts()).pairs;
     const dot = await studio.mark('tip, target');

@@ -6,6 +6,7 @@ import { formats, readModel, skeletonOf } from './model.js';
 import { Marks } from './marks.js';
 import { Timeline } from './timeline.js';
 import { drawLegend } from './legend.js';
+import { show } from './show.js';
 import { adoptSettings, settingsOf } from './settings.js';
 import { View } from './view.js';
 import { listen } from './input.js';
@@ -273,54 +274,8 @@ export class App {
     const bytes = await this.bytesOf(name, 'source');
     if (bytes) await (await this.need('detail')).bring(bytes, name);
   }
-  /** Brings the picture to a state: only what changed is asked for. way: of the pose, see worker_pose.js. */
-  async #apply(state, way) {
-    const { skin } = this;
-    const exact = way === 'exact';
-    const shown = this.shownState;
-    this.shownState = state;
-    const wanted = [];
-    const moving = this.moving && way !== 'follow';
-    const { handles, lengths, detail, stiffness } = state;
-    const same = ['handles', 'lengths', 'detail'].every((part) => shown?.[part] === state[part]);
-    const stroke = shown?.stiffness !== stiffness;
-    if (stroke && way === 'follow') this.moving = true;
-    // a stroke does not move a body at rest: its pose follows when the stroke ends
-    if (exact || moving || !same || (stroke && (way !== 'follow' || this.tools.pose.posed(handles)))) {
-      this.moving = way === 'follow';
-      wanted.push(
-        this.client.frame('shape', { handles, lengths, detail, stiffness, way }).then((answer) => {
-          if (!answer || this.skin !== skin) return;
-          this.shape = { positions: answer.positions, normals: answer.normals };
-          this.told = answer.told;
-          for (const { id, centroid, rotation } of answer.told.handles) {
-            this.centres.set(id, centroid);
-            this.turns.set(id, Array.from(rotation));
-          }
-          ++this.figures.frames;
-          this.figures.shape = answer.told.milliseconds;
-          this.timeline.show();
-          this.tool?.shaped?.();
-          this.marksLayer.update();
-        }),
-      );
-    }
-    if (state.sites.length && (exact || stroke || shown?.sites !== state.sites))
-      wanted.push(
-        this.client.frame('field', { sites: state.sites, stiffness, at: exact }).then((answer) => {
-          if (!answer || this.skin !== skin) return;
-          this.fieldTold = answer.told;
-          this.figures.field = answer.told.milliseconds;
-          skin.setField(answer.values, answer.reached);
-        }),
-      );
-    if (stroke && !wanted.length) wanted.push(this.client.frame('stiffen', { stiffness }));
-    try {
-      await Promise.all(wanted);
-    } catch (error) {
-      this.shownState = null;
-      throw error;
-    }
+  #apply(state, way) {
+    return show(this, state, way);
   }
 
   // ---- tools and panels

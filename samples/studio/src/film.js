@@ -47,11 +47,12 @@ export async function film(app) {
   const started = new Promise((resolve) => (recorder.onstart = resolve));
   recorder.start();
   await started;
-  const begin = performance.now();
+  let begin = null; // of the first picture: a busy machine may draw it late
   let handed = -Infinity;
   await new Promise((resolve) => {
     const step = () => {
       const now = performance.now();
+      begin ??= now;
       const time = (now - begin) / 1000;
       if (!moving) {
         view.turn = turn + (2 * Math.PI * Math.min(time, SECONDS)) / SECONDS;

@@ -67,7 +67,7 @@ export class Marks {
   #lookBehind() {
     if (!this.#canLook()) return;
     for (const element of this.#buttons.values())
-      element.classList.toggle('behind', this.#isBehind(element.mark));
+      element.classList.toggle('behind', !element.mark.pulse && this.#isBehind(element.mark)); // "pull me" is always read
   }
   /** Whether the body lies before a mark. */
   #isBehind({ place }) {

@@ -62,11 +62,11 @@ export class View {
   }
   drawNow() {
     this.place();
+    for (const listener of this.#listeners) listener();
     this.renderer.render(this.#scene, this.camera);
     ++this.pictures;
-    for (const listener of this.#listeners) listener();
   }
-  /** Calls after every picture: marks follow the camera. */
+  /** Calls before every picture, with its camera: marks and rings are drawn where it has them. */
   onDraw(listener) {
     this.#listeners.add(listener);
   }

@@ -87,7 +87,9 @@ export function poseOf(body) {
       hold(handles, inPlace);
     } catch (error) {
       hold(before);
-      throw error;
+      // of handles the library refuses this alone as a conflict; it counts vertices and entries, which no artist has seen
+      if (error.codeName !== 'HF_ERROR_CONFLICT') throw error;
+      throw new Error('a handle overlaps another; put it farther away, or make it smaller');
     }
   };
 

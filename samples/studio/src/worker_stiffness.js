@@ -4,35 +4,42 @@ import { unpack } from './stiffness.js';
 
 export function stiffnessOf({ surface: plain, positions }) {
   const count = positions.length / 3;
+  const none = new Float64Array(count);
   let surface = plain;
-  let held = new Map(); // vertex -> level, of what is not 0
-  let text = 'null'; // the list that is held
+  let held = none; // the level of each vertex
   let direct = true; // made from the plain surface by one edit: its bits depend on the list alone
-  let milliseconds = 0;
 
   const shut = (old) => old !== plain && old.close(); // what stands on it keeps it alive
+  /** Vertices whose level differs. Plain loops: this runs for every frame. */
+  const changes = (was, wanted) => {
+    const vertices = [];
+    for (let v = 0; v < count; ++v) if (was[v] !== wanted[v]) vertices.push(v);
+    return vertices;
+  };
   return {
     get surface() {
       return surface;
     },
-    told: () => ({ milliseconds, vertexCount: held.size }),
     /** Brings the surface to a list of stiffness.js. exact: by one edit of the plain one. A refusal changes nothing. */
     hold(list, exact = false) {
-      const wantedText = JSON.stringify(list ?? null);
-      if (wantedText === text && (direct || !exact)) return;
-      const begin = performance.now();
-      const wanted = new Map();
-      unpack(list, (v, level) => wanted.set(v, level));
-      const [from, was] = exact || !wanted.size ? [plain, new Map()] : [surface, held];
-      const vertices = [];
-      for (const [v, level] of wanted) if (was.get(v) !== level) vertices.push(v);
-      for (const v of was.keys()) if (!wanted.has(v)) vertices.push(v);
-      const stiffness = vertices.map((v) => 10 ** (wanted.get(v) ?? 0));
+      const wanted = new Float64Array(count);
+      let empty = true;
+      const strange = []; // a list of another body: the library says what is wrong
+      unpack(list, (v, level) => {
+        empty = false;
+        if (v in wanted) wanted[v] = level;
+        else strange.push(v);
+      });
+      let vertices = changes(held, wanted).concat(strange);
+      if (!vertices.length && (direct || !exact)) return;
+      const whole = exact || empty;
+      if (whole) vertices = changes(none, wanted).concat(strange);
+      const from = whole ? plain : surface;
+      const stiffness = vertices.map((v) => 10 ** (wanted[v] ?? 0));
       const next = vertices.length ? from.edit({ vertices, stiffness }) : from;
       if (next !== surface) shut(surface);
       direct = from === plain || (direct && next === from);
-      [surface, held, text] = [next, wanted, wantedText];
-      milliseconds = performance.now() - begin;
+      [surface, held] = [next, wanted];
     },
     /** What the brush walks on: the neighbours of vertex v are ends[starts[v]] to ends[starts[v + 1] - 1], by first vertices of each place. */
     net(triangles) {

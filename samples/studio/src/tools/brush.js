@@ -17,7 +17,7 @@ const words = (level) => (level ? `${wordOf(level)}, ${(10 ** level).toLocaleStr
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
   const { $, button, choice, circleOf, colourAt, facts, make, pack, say, slider, touched, unpack, whole } = kit;
-  const colours = Array.from({ length: COLOURS }, (_, i) => colourAt((i + 0.5) / COLOURS));
+  const colours = Float32Array.from(Array.from({ length: COLOURS }, (_, i) => colourAt((i + 0.5) / COLOURS)).flat());
   return class {
     static key = 'brush';
     static title = 'Stiffness';
@@ -65,8 +65,15 @@ export const tool = (kit) => {
     }
     wear() {
       const { app } = this;
-      const tint = new Float32Array(3 * app.body.vertexCount);
-      this.now().forEach((level, v) => tint.set(colours[level + MOST], 3 * v));
+      const levels = this.now();
+      const tint = new Float32Array(3 * levels.length);
+      // plain numbers, no lists: this runs for every frame of a stroke
+      for (let v = 0, at = 0; v < levels.length; ++v) {
+        const colour = 3 * (levels[v] + MOST);
+        tint[at++] = colours[colour];
+        tint[at++] = colours[colour + 1];
+        tint[at++] = colours[colour + 2];
+      }
       app.skin.setTint(tint);
       app.skin.wear('tint');
       app.legend({ words: ['soft', 'normal', 'rigid'], strips: COLOURS });

@@ -158,21 +158,22 @@ export class FieldTool {
           (value) => this.app.preview(this.with(site.id, { value })),
           () => this.app.commitPreview('set a value'),
         ),
-      site &&
-        make(
-          'div',
-          { class: 'row' },
+      make(
+        'div',
+        { class: 'row' },
+        site &&
           button(
             site.soft ? 'Make it hard' : 'Make it soft',
             () => this.app.commit(this.with(site.id, { soft: !site.soft }), 'hard or soft'),
             { id: 'soft' },
           ),
-          button('Remove', () => this.remove(site.id), { id: 'remove' }),
-        ),
-      this.sites.length > 0 &&
-        button('Remove all sites', () => this.app.commit({ ...this.app.state, sites: [] }, 'remove all sites'), {
-          id: 'clear',
-        }),
+        site && button('Remove', () => this.remove(site.id), { id: 'remove' }),
+        this.sites.length > 0 &&
+          button('Remove all sites', () => this.app.commit({ ...this.app.state, sites: [] }, 'remove all sites'), {
+            id: 'clear',
+          }),
+        brushButton(this.app),
+      ),
       told?.unreachedVertexCount > 0 &&
         this.sites.length > 0 &&
         make(
@@ -180,7 +181,6 @@ export class FieldTool {
           { class: 'warn' },
           `${whole(told.unreachedVertexCount)} vertices belong to pieces without a site; they are hatched. Add a site there.`,
         ),
-      make('div', { class: 'row' }, brushButton(this.app)),
       facts([['sites', this.sites.length], this.sites.length && told && ['field', ms(told.milliseconds)]]),
     ];
   }

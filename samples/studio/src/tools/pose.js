@@ -2,10 +2,11 @@
 // the twin of a handle on the other side does the same. A drag frees the rotation of a handle: the pose finds it. Rings and
 // keys give it, from where it stands.
 import { Matrix3, Quaternion, Vector3 } from 'three';
-import { brushButton, button, facts, make, ms, say, slider, whole } from '../ui.js';
+import { say } from '../ui.js';
 import { circleOf } from '../circle.js';
 import { Gizmo } from '../gizmo.js';
-import { Mirror, mirrorChoice } from '../mirror.js';
+import { Mirror } from '../mirror.js';
+import { poseSheet, rest } from '../pose_sheet.js';
 
 const reasons = ['foot', 'tip', 'end', 'joint', 'middle'];
 /** Words of HF_ROLE_* and HF_SIDE_*; 0 says nothing. */
@@ -14,14 +15,10 @@ const roles = [
   ...['eye', 'antenna', 'fin'],
 ];
 const sides = ['', 'left ', 'right '];
-/** Gaps between pieces below this part of the box are not said: 3 pixels of a body that fills the picture. */
-const GAP_SAID = 0.005;
 /** A key moves a handle by this part of the size of the body, 12 pixels, and turns it by ten degrees; with Shift it moves a quarter. */
 const [NUDGE, TURN_STEP] = [0.02, Math.PI / 18];
 /** Radius of a handle that a click makes, as part of the size of the body: of a leg's width on our own creatures. */
 const RADIUS = 0.035;
-
-const rest = { rotation: [0, 0, 0, 1], translation: [0, 0, 0], free: false };
 
 export class PoseTool {
   static key = 'pose';
@@ -371,99 +368,6 @@ export class PoseTool {
     return this.app.commit(this.with(handle.id, { pinned: !handle.pinned }), handle.pinned ? 'unpin' : 'pin');
   }
   sheet() {
-    const { app } = this;
-    const handle = this.present();
-    const moved = this.posed();
-    const unreached = app.told?.unreachedVertexCount ?? 0;
-    const waiting = this.offers.filter(({ id }) => !this.handles.some((other) => other.id === id));
-    return [
-      make(
-        'p',
-        {},
-        handle
-          ? `${handle.label}: drag it, or turn it by its rings.${this.twin() ? ` ${this.twin().label} mirrors it.` : ''}`
-          : 'Drag a dot: squares hold, circles move. Click the body for a new handle.',
-      ),
-      handle &&
-        make(
-          'div',
-          { class: 'row' },
-          button(handle.pinned ? 'Unpin' : 'Pin', () => this.pin(handle), {
-            id: 'pin',
-            'aria-pressed': String(handle.pinned),
-          }),
-          button('Back to rest', () => app.commit(this.with(handle.id, rest), 'back to rest'), { id: 'back' }),
-          button('Remove', () => this.remove(handle), { id: 'remove' }),
-          button('Keep limb lengths', () => app.commit(this.with(handle.id, { limb: !handle.limb }), 'keep the limb'), {
-            id: 'limb',
-            'aria-pressed': String(Boolean(handle.limb)),
-            title: 'The limb of this handle keeps its lengths and bends like two bones; the body stays as it is',
-          }),
-        ),
-      handle &&
-        slider(
-          'How much follows',
-          { value: handle.following ?? 1, low: 0, high: 1, step: 0.05, id: 'follows' },
-          (following) => app.preview(this.with(handle.id, { following })),
-          // other poses of least energy can be near: the one that an undo and a saved session show
-          () => app.commitPreview('how much follows').then(() => app.again()),
-        ),
-      make(
-        'div',
-        { class: 'row' },
-        button('Add all proposed', () => this.addAll(waiting, 'add handles'), {
-          id: 'propose',
-          disabled: !waiting.length,
-        }),
-        button(
-          'Rest pose',
-          () =>
-            app.commit({ ...app.state, handles: this.handles.map((other) => ({ ...other, ...rest })) }, 'rest pose'),
-          { id: 'rest', disabled: !moved },
-        ),
-        button(
-          'Ghost',
-          () => {
-            this.ghost = !this.ghost;
-            app.refresh();
-          },
-          {
-            id: 'ghost',
-            'aria-pressed': String(this.ghost),
-            disabled: !moved,
-            title: 'Shows the body at rest around the pose',
-          },
-        ),
-        button('Keep lengths', () => app.commit({ ...app.state, lengths: !app.state.lengths }, 'keep lengths'), {
-          id: 'lengths',
-          'aria-pressed': String(Boolean(app.state.lengths)),
-          title: 'Limbs keep their length and thickness; bends get sharper, and a pose takes longer',
-        }),
-        brushButton(app),
-      ),
-      mirrorChoice(this.mirror.axis, (axis) => {
-        this.mirror.set(axis);
-        app.refresh();
-      }),
-      slider(
-        'Size of a new handle',
-        { value: this.radius, low: 0.01, high: 0.15, step: 0.005, digits: 3, id: 'radius' },
-        (value) => (this.radius = value),
-      ),
-      unreached > 0 &&
-        this.handles.length > 0 &&
-        make(
-          'p',
-          { class: 'warn' },
-          `${whole(unreached)} vertices belong to pieces without a handle; they stay where they are.`,
-        ),
-      app.body.notes.length > 0 && make('p', {}, `Of the file: ${app.body.notes.join('; ')}.`),
-      app.told?.gap > GAP_SAID &&
-        make('p', { class: 'warn' }, `Linked pieces are up to ${(100 * app.told.gap).toFixed(1)} % of the box apart.`),
-      facts([
-        ['handles', this.handles.length],
-        app.told && [app.told.added ? 'a handle more' : 'pose', ms(app.told.milliseconds)],
-      ]),
-    ];
+    return poseSheet(this);
   }
 }

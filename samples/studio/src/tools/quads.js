@@ -2,11 +2,10 @@
 // that the user draws and drags, and 3 or 5 quads meet at poles: the mesh follows at once without relaxation, and with it at
 // the end.
 import { quadOptions } from '../quad_options.js';
+import { quadSheet, rounded } from '../quad_sheet.js';
 import { areaOf, startCount } from '../quad_size.js';
 import { drawQuads, dropQuads, placeQuads } from '../quad_lines.js';
 
-/** What the slider offers, as powers of two: 500 to 16,000 or so. */
-const [LOW, HIGH] = [9, 14];
 /** A stroke has a place every so many pixels: a fine body has a triangle about there. */
 const STEP_PIXELS = 6;
 /** Fewer places say no direction. */
@@ -17,13 +16,9 @@ const DOTS = { 3: '#1f78b4', 5: '#7b3fa0' };
 /** An arrow key moves a pole by so many pixels: less than a quad, which it would jump over. */
 const NUDGE_PIXELS = 8;
 
-/** Two digits: 'about 2,000' says what is known before. */
-const rounded = (count) => Number(count.toPrecision(2));
-
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
   const { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments } = kit;
-  const { button, facts, make, mirrorChoice, ms, slider, whole } = kit;
   return class {
     static key = 'quads';
     static title = 'Quads';
@@ -174,7 +169,7 @@ export const tool = (kit) => {
       if (!place) return undefined;
       const id = `q${1 + Math.max(0, ...this.poles.map((pole) => Number(pole.id.slice(1))))}`;
       const quads = this.placing;
-      return this.#set({ poles: [...this.poles, { id, quads, ...place }] }, `place a pole of ${quads}`, id);
+      return this.set({ poles: [...this.poles, { id, quads, ...place }] }, `place a pole of ${quads}`, id);
     }
     #moved(id, place) {
       return { poles: this.poles.map((pole) => (pole.id === id ? { ...pole, ...place } : pole)) };
@@ -226,15 +221,16 @@ export const tool = (kit) => {
       if (way && this.#isPole(id)) {
         const { x, y } = this.app.view.onScreen(place);
         const hit = this.#hit([x + way[0] * NUDGE_PIXELS, y + way[1] * NUDGE_PIXELS]);
-        if (hit) this.#set(this.#moved(id, hit), 'move a pole', id, `pole ${id}`);
+        if (hit) this.set(this.#moved(id, hit), 'move a pole', id, `pole ${id}`);
         return true;
       }
       if (key !== 'Delete' && key !== 'Backspace') return false;
-      if (this.#isPole(id)) this.#set({ poles: others(this.poles) }, 'remove a pole');
-      else this.#set({ strokes: others(this.strokes) }, 'remove a stroke');
+      if (this.#isPole(id)) this.set({ poles: others(this.poles) }, 'remove a pole');
+      else this.set({ strokes: others(this.strokes) }, 'remove a stroke');
       return true;
     }
-    #set(change, name, chosen = null, join = null) {
+    /** A step with other strokes or poles. */
+    set(change, name, chosen = null, join = null) {
       this.chosen = chosen;
       return this.app.commit({ ...this.app.state, ...change }, name, join);
     }
@@ -364,92 +360,7 @@ export const tool = (kit) => {
       this.app.view.draw();
     }
     sheet() {
-      const { result, busy } = this;
-      const disabled = Boolean(busy);
-      return [
-        make(
-          'p',
-          {},
-          this.drawing
-            ? 'Draw on the body: edges follow the stroke. Drag its dot, and the quads follow.'
-            : this.placing
-              ? `Click on the body: ${this.placing} quads meet there. Drag the dot, and the quads follow.`
-              : 'Covers the body with quads that follow its shape. More quads take longer.',
-        ),
-        make(
-          'div',
-          { class: 'row' },
-          button('Make quads', () => this.run(), { class: 'main', id: 'make', disabled }),
-          busy && button('Cancel', () => this.cancel(), { id: 'cancel' }),
-        ),
-        busy &&
-          make(
-            'div',
-            { class: 'row', role: 'status' },
-            make('progress', { 'aria-label': 'making quads' }),
-            make('span', { id: 'quads-clock' }, '0 s'),
-            result && make('span', {}, 'The quads are evened out and fitted now.'),
-          ),
-        this.error && make('p', { class: 'warn' }, this.error),
-        slider(
-          'Quads',
-          {
-            value: Math.log2(this.count),
-            low: LOW,
-            high: HIGH,
-            step: 0.05,
-            id: 'count',
-            disabled,
-            words: (power) => `about ${whole(rounded(2 ** power))}`,
-          },
-          (power) => (this.count = rounded(2 ** power)),
-        ),
-        slider(
-          'Creases from, degrees',
-          { value: this.crease, low: 0, high: 180, step: 5, digits: 0, id: 'crease', disabled },
-          (value) => (this.crease = value),
-        ),
-        mirrorChoice(this.mirror, (value) => (this.mirror = value), { disabled }),
-        make(
-          'div',
-          { class: 'row' },
-          button(
-            'Draw strokes',
-            () => {
-              this.drawing = !this.drawing;
-              this.placing = 0;
-              this.app.refresh();
-            },
-            { id: 'draw', 'aria-pressed': String(Boolean(this.drawing)), disabled },
-          ),
-          this.strokes.length > 0 &&
-            button('Remove strokes', () => this.#set({ strokes: [] }, 'remove all strokes'), { id: 'clear', disabled }),
-        ),
-        make(
-          'div',
-          { class: 'row' },
-          ...[3, 5].map((quads) =>
-            button(
-              `Pole of ${quads}`,
-              () => {
-                this.placing = this.placing === quads ? 0 : quads;
-                this.drawing = false;
-                this.app.refresh();
-              },
-              { id: `pole-${quads}`, 'aria-pressed': String(this.placing === quads), disabled },
-            ),
-          ),
-          this.poles.length > 0 &&
-            button('Remove poles', () => this.#set({ poles: [] }, 'remove all poles'), { id: 'clear-poles', disabled }),
-        ),
-        result &&
-          facts([
-            ['quads', whole(result.info.faceCount)],
-            ['corners', whole(result.info.vertexCount)],
-            ['edge', result.info.edgeLength.toPrecision(3)],
-            ['time', ms(result.milliseconds)],
-          ]),
-      ];
+      return quadSheet(kit, this);
     }
   };
 };

@@ -60,7 +60,6 @@ export const tool = (kit) => {
       const taken = !pairs || (await this.set(pairs));
       await this.app.client.ask('transferDials', { dials });
       this.dials = dials;
-      if (this.app.tool !== this) this.leave();
       if (!taken) throw new Error('its pairs were refused; choose them again');
     }
     enter() {
@@ -186,8 +185,10 @@ export const tool = (kit) => {
       this.clip = clip;
       this.pairs = this.good = pairs;
       this.time = 0;
-      this.#rest();
-      this.look();
+      if (app.tool === this) {
+        this.#rest();
+        this.look();
+      } else skin.group.visible = false; // a session comes back, or another tool was opened meanwhile
       app.session?.keep('transfer', { bytes, name });
       if (pairs.length) await this.set(pairs);
     }
@@ -205,12 +206,12 @@ export const tool = (kit) => {
     }
     /** Source at a time, and this body moved like it. */
     async seek(time) {
-      const { app, source } = this;
+      const { app, source, run } = this;
       this.time = time;
       playedAt(source.body, this.clip, time, source.locals, source.posed);
       smoothNormals(source.posed, source.sums, source.normals);
       const answer = await app.client.frame('transferFrame', { positions: source.posed });
-      if (!answer || this.source !== source || app.tool !== this) return;
+      if (!answer || this.source !== source || app.tool !== this || this.run !== run) return;
       source.skin.set({ positions: source.posed, normals: source.normals });
       app.skin.set(answer);
       this.milliseconds = answer.milliseconds;
@@ -247,9 +248,10 @@ export const tool = (kit) => {
     }
     play() {
       this.playing = true;
+      const run = (this.run = {}); // it ends with Stop and with the next Play: no frame that comes later is shown
       let last = performance.now();
       const step = async (now) => {
-        if (!this.playing || !this.source) return;
+        if (!this.playing || !this.source || this.run !== run) return;
         await this.seek((this.time + Math.max(0, now - last) / 1000) % lengthOf(this.clip)).catch((error) => {
           this.playing = false;
           this.app.warn(error.message);
@@ -262,6 +264,7 @@ export const tool = (kit) => {
     }
     async stop() {
       this.playing = false;
+      this.run = null;
       this.time = 0;
       const { source } = this;
       source.posed.set(source.body.positions);
