@@ -4,14 +4,14 @@ and go on."""
 import os
 import sys
 
-import bmesh
 import bpy
+import bmesh  # a part of bpy where this is a module
 import numpy as np
 
 sys.path.insert(0, os.environ["HF_TESTS"])
-bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
-bpy.ops.preferences.addon_enable(module="hf_blender")
-from hf_blender import mesh_data, panels, session  # noqa: E402
+import blender_addon  # noqa: E402
+
+mesh_data, panels, session = blender_addon.modules("mesh_data", "panels", "session")
 
 RINGS, AROUND = 41, 16
 
@@ -468,5 +468,5 @@ bpy.context.view_layer.update()
 active(linked)
 refused("shares its mesh with tube", group="belt")
 
-bpy.ops.preferences.addon_disable(module="hf_blender")
+blender_addon.disable()
 print("blender edit: all right")

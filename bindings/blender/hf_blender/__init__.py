@@ -111,6 +111,7 @@ def on_undo(*_):
     session.look_again()
     with operators.quiet():
         copies.part(always=True)
+        bpy.context.view_layer.update()  # after an undo Blender 5 has no place of an object until it is evaluated
     if bpy.context.scene.hf_live:
         follow(bpy.context.scene)
     with operators.quiet():
