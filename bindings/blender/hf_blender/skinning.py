@@ -8,6 +8,7 @@ from mathutils import Matrix
 
 import hf
 
+from .armatures import armature_of
 from .mesh_data import faces_of, on_surface, positions_of, size_of
 from .session import make_surface
 
@@ -41,11 +42,6 @@ def groups_changed():
     """After an undo, nobody knows what the groups hold."""
     for skin in kept.values():
         skin.rows = None
-
-
-def armature_of(obj):
-    """The armature whose modifier moves a mesh."""
-    return next((m.object for m in obj.modifiers if m.type == "ARMATURE" and m.object), None)
 
 
 def bone_ends(obj, armature, bones):
