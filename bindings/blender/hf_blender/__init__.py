@@ -18,7 +18,7 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import carriers, copies, operators, paint, panels, quad_operators, quads, retarget, rig, session, skinning  # noqa: E402
+from . import armatures, carriers, copies, operators, paint, panels, quad_operators, quads, retarget, rig, session, skinning  # noqa: E402
 from .operators import refresh  # noqa: E402
 
 
@@ -116,7 +116,9 @@ def on_depsgraph(scene, depsgraph):
         if not isinstance(item, bpy.types.Object):
             continue
         if item.type == "EMPTY" and update.is_updated_transform and "hf_key" in item:
-            keys.add(item["hf_key"])
+            found = session.sessions.get(item["hf_key"])
+            if found is None or found.stood.get(item.get("hf_id")) != armatures.stand_of(item.original):
+                keys.add(item["hf_key"])
         elif item.type == "ARMATURE" and item.get("hf_bones"):  # moved, or posed
             keys |= {bone["hf_key"] for bone in carriers.bones_of(item.original)}
     held = carriers.carriers_in(scene.objects)

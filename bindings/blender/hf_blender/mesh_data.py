@@ -173,6 +173,15 @@ def group_vertices(obj, name, least=0.5):
     return groups_vertices(obj, [name], least)[0]
 
 
+def places_of(positions):
+    """A number for each place: vertices at one place, as along a seam, have the same."""
+    order = np.lexsort(positions.T)
+    there = positions[order]
+    out = np.empty(len(positions), np.int64)
+    out[order] = np.cumsum(np.concatenate([[False], (there[1:] != there[:-1]).any(1)])[:len(positions)])
+    return out
+
+
 def group_weights(obj, name):
     """The weight of every vertex in a vertex group, 0 outside."""
     group = obj.vertex_groups.get(name)

@@ -22,13 +22,17 @@ def lost_group(obj, key):
     return name if name and name not in obj.vertex_groups else ""
 
 
-def stiffness_of(obj):
-    """The stiffness of each vertex: s to the power of the weight."""
+def stiffness_of(obj, found):
+    """The stiffness of each vertex: s to the power of the weight. Vertices at one place are one to the library: the largest of
+    their weights counts."""
     name, most = obj.get(STIFF_GROUP), obj.get(STIFF, 1.0)
     if not name:
         return np.ones(len(obj.data.vertices))
+    places = found.places()
+    weights = np.zeros(len(places))
+    np.maximum.at(weights, places, mesh_data.group_weights(obj, name))
     # the least number of a Blender property, in single precision, is a little below the least of hf
-    return np.clip(most ** mesh_data.group_weights(obj, name), LEAST, MOST)
+    return np.clip(most ** weights[places], LEAST, MOST)
 
 
 def pins_of(obj):

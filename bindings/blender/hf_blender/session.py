@@ -104,6 +104,7 @@ class Session:
         self.painted = np.empty(0, np.uint32)  # the vertices that are pinned by painting
         self.pin = None  # the handle that holds those of them that no other handle has
         self.stale = True  # that handle has to be looked at, and what the mesh keeps of all regions
+        self.place_of = None  # mesh_data.places_of, once it is asked for
         self.paint_error = ""  # why what is painted now cannot be taken
         self.wrote = False  # Blender has yet to tell of our own change of the mesh
         self.pose = hf.Pose(self.surface)
@@ -111,6 +112,7 @@ class Session:
         self.free = set()  # hf_id of handles whose rotation the pose finds
         self.limbs = {}  # hf_id -> how much follows, and the steps on the limb, of handles of layer 0
         self.placed = {}  # hf_id -> matrix of the last update
+        self.stood = {}  # hf_id -> where a carrier stood in the last update, without what the armature does
         self.posed = self.rest.copy()
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
         carriers.name(obj)
@@ -130,7 +132,7 @@ class Session:
         """Takes what is painted on the mesh. Nothing is factorised again for a stroke of some hundred vertices, and the handles
         stay. A group that is renamed or removed changes nothing: the panel says so."""
         pins = self.painted if paint.lost_group(obj, paint.PINS) else paint.pins_of(obj)
-        stiffness = self.stiffness if paint.lost_group(obj, paint.STIFF_GROUP) else paint.stiffness_of(obj)
+        stiffness = self.stiffness if paint.lost_group(obj, paint.STIFF_GROUP) else paint.stiffness_of(obj, self)
         if not np.array_equal(stiffness, self.stiffness):
             edited = self.surface.edit(stiffness=stiffness)
             self.pose.move_to(edited)
@@ -142,29 +144,31 @@ class Session:
         self.paint_error = ""
 
     def follow_paint(self, obj):
-        """take_paint(), and what is wrong with it goes to the panel. Returns whether anything has changed."""
+        """take_paint(), and what is wrong with it goes to the panel."""
         self.repainted = False
-        before = (self.surface, self.painted)
         try:
             self.take_paint(obj)
         except hf.HfError as error:
             self.paint_error = error.message
-        return before[0] is not self.surface or before[1] is not self.painted
 
     def unheld(self, held):
         """The painted vertices that no handle has, nor a vertex at the same place, which the library takes as one."""
         if not len(self.painted) or not held:
             return self.painted
         taken = np.concatenate([np.array(carrier["hf_vertices"], np.int64) for carrier in held])
-        _, place = np.unique(self.rest + np.float32(0), axis=0, return_inverse=True)
-        place = place.ravel()
-        return self.painted[~np.isin(place[self.painted], place[taken])]
+        places = self.places()
+        return self.painted[~np.isin(places[self.painted], places[taken])]
+
+    def places(self):
+        if self.place_of is None:
+            self.place_of = mesh_data.places_of(self.rest)
+        return self.place_of
 
     def sync(self, obj):
         """Handles for new carriers and for painted pins, none for those that have gone."""
         begin = time.perf_counter()
         found = carriers.carriers_of(obj["hf_key"])
-        armatures.carry_all(obj, found.values())
+        armatures.carry_all(obj, [*found.values(), *carriers.offered(obj["hf_key"])])
         gone = [i for i in self.numbers if i not in found]
         fresh = [i for i in found if i not in self.numbers]
         self.stale = self.stale or bool(gone or fresh)
@@ -247,6 +251,7 @@ class Session:
             moved = any(not np.array_equal(self.placed.get(i, IDENTITY), m) for i, m in zip(found, matrices))
             self.note = "" if moved else self.note  # it was shown until now
             self.placed = dict(zip(found, matrices))
+            self.stood = {i: armatures.stand_of(carrier).copy() for i, carrier in found.items() if armatures.carried(carrier)}
         else:
             self.posed[:] = self.rest
             moved, self.remarks = True, []
