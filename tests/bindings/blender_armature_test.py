@@ -33,12 +33,16 @@ def make_rig(weights):
     rig.data.edit_bones["upper"].parent = rig.data.edit_bones["lower"]
     bpy.ops.object.mode_set(mode="OBJECT")
     rig.pose.bones["upper"].rotation_mode = "QUATERNION"
+    make_weights(weights)
+    body.modifiers.new("rig", "ARMATURE").object = rig
+    return rig
+
+
+def make_weights(weights):
     for name, share in (("lower", 1 - weights), ("upper", weights)):
         group = body.vertex_groups.get(name) or body.vertex_groups.new(name=name)
         for vertex, weight in enumerate(share):
             group.add([vertex], float(weight), "REPLACE")
-    body.modifiers.new("rig", "ARMATURE").object = rig
-    return rig
 
 
 def bend(degrees):
@@ -141,6 +145,23 @@ bpy.context.view_layer.update()
 assert np.linalg.norm(shown()[region].mean(0) - np.array(target.location)) < 1e-3
 high.constraints.remove(track)
 bpy.data.objects.remove(target)
+bpy.context.view_layer.update()
+
+# ---- weights are computed from the rest shape, whatever the handles did to the mesh
+def weights_now():
+    active(body)
+    rig.select_set(True)
+    assert bpy.ops.hf.weights_from_bones() == {"FINISHED"}
+    return mesh_data.weights_of(body)[:, [body.vertex_groups[name].index for name in ("lower", "upper")]]
+bpy.context.view_layer.update()
+in_pose, data = weights_now(), body.data
+body.data = data.copy()
+mesh_data.forget_pose(body.data)
+body.data.vertices.foreach_set("co", points.ravel())
+np.testing.assert_allclose(weights_now(), in_pose, atol=1e-5)
+bare, body.data = body.data, data
+bpy.data.meshes.remove(bare)
+make_weights(np.clip(z - 1.5, 0, 1))
 bpy.context.view_layer.update()
 
 # ---- a file that is opened again, in the pose
