@@ -12,7 +12,8 @@ sys.path.insert(0, os.environ["HF_TESTS"])
 import blender_addon  # noqa: E402
 from blender_bodies import AROUND, active, tube  # noqa: E402
 
-armatures, carriers, mesh_data, panels, session = blender_addon.modules("armatures", "carriers", "mesh_data", "panels", "session")
+armatures, carriers, mesh_data, operators, panels, session = blender_addon.modules("armatures", "carriers", "mesh_data", "operators",
+    "panels", "session")
 
 for leftover in list(bpy.data.objects):
     bpy.data.objects.remove(leftover)
@@ -84,6 +85,9 @@ low, middle, high = (empties()[name] for name in ("low", "middle", "high"))
 assert seen_at(low) < 1e-5 and seen_at(high) < 1e-5 and seen_at(middle) < 0.05, [seen_at(o) for o in (low, middle, high)]
 assert panels.next_step(body, held()) == "Move or turn a handle: the mesh follows."
 assert "rig moves the handles too" in armatures.sentence_on(body)
+active(rig)
+assert operators.mesh_of(bpy.context) == body  # the panel is that of the mesh while its bones are posed
+active(body)
 
 # ---- the pose of the armature takes them along, and solves nothing anew
 solve, solved = held().pose.deform, []

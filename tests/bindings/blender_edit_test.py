@@ -97,6 +97,7 @@ saved = now()
 bpy.ops.wm.open_mainfile(filepath=path)
 body = bpy.data.objects["tube"]
 np.testing.assert_allclose(now(), saved, atol=1e-4)
+assert held() is None and panels.next_step(body, None) == "Move or turn a handle: the mesh follows."
 handles()["high"].location.x -= 1
 bpy.context.view_layer.update()
 assert held().pose.handle_count == 2

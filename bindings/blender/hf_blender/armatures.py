@@ -144,4 +144,4 @@ def sentence_on(obj):
     modifier = modifier_of(obj)
     if modifier is None:
         return ""
-    return f"{modifier.object.name} moves the handles too: pose its bones, drag a handle, in any order."
+    return f"{modifier.object.name} moves the handles too. What you drag stays in every pose of its bones."

@@ -152,6 +152,7 @@ def make_empty(obj, name, vertices, rest_positions, diagonal, layer):
     empty = bpy.data.objects.new(f"{obj.name} {name}", None)
     empty.empty_display_type = "SPHERE"
     empty.empty_display_size = 0.05 * diagonal
+    empty.show_in_front = True  # its middle lies inside the body
     for collection in obj.users_collection or (bpy.context.scene.collection,):
         collection.objects.link(empty)
     mark(empty, obj, vertices, rest, layer)

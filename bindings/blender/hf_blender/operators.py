@@ -61,13 +61,16 @@ def guarded(execute):
 
 
 def mesh_of(context):
-    """The active mesh, or the mesh of the active handle or armature."""
+    """The active mesh, or the mesh of the active handle, or that with handles which the active armature moves."""
     active = context.active_object
     if active is None:
         return None
     key = active.get("hf_key") if active.type == "EMPTY" else None
     if active.type == "ARMATURE":
         key = next((bone["hf_key"] for bone in carriers.bones_of(active)), None)
+        if key is None and active.hf_source is None:
+            key = next((o["hf_key"] for o in context.scene.objects if o.type == "MESH" and "hf_key" in o
+                and getattr(armatures.modifier_of(o), "object", None) == active), None)
     return mesh_with(key) if key else active
 
 

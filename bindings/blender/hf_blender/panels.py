@@ -20,6 +20,8 @@ def next_step(obj, found):
         return f"{obj.name} has no faces: select another mesh."
     if obj.get("hf_key") in session.unbound:
         return "Undo the edit, or mend the mesh in Edit Mode. Or press Unbind, and propose handles again."
+    if found is None and session.handles_of(obj):  # a file that was opened
+        return "Move or turn a handle: the mesh follows." if bpy.context.scene.hf_live else "Press Update, or turn Live on."
     if found is None:
         return "Press Propose handles, or Bind."
     if obj.mode == "EDIT":

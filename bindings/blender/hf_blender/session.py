@@ -112,6 +112,7 @@ class Session:
         self.free = set()  # hf_id of handles whose rotation the pose finds
         self.limbs = {}  # hf_id -> how much follows, and the steps on the limb, of handles of layer 0
         self.placed = {}  # hf_id -> matrix of the last update
+        self.mover = ""  # the armature that moves the handles
         self.stood = {}  # hf_id -> where a carrier stood in the last update, without what the armature does
         self.posed = self.rest.copy()
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
@@ -168,10 +169,14 @@ class Session:
         """Handles for new carriers and for painted pins, none for those that have gone."""
         begin = time.perf_counter()
         found = carriers.carriers_of(obj["hf_key"])
-        armatures.carry_all(obj, [*found.values(), *carriers.offered(obj["hf_key"])])
         gone = [i for i in self.numbers if i not in found]
         fresh = [i for i in found if i not in self.numbers]
         self.stale = self.stale or bool(gone or fresh)
+        modifier = armatures.modifier_of(obj)
+        mover = modifier.object.name_full if modifier else ""
+        if self.stale or mover != self.mover:
+            self.mover = mover
+            armatures.carry_all(obj, handles_of(obj))
         if self.stale and self.pin is not None:
             self.pose.remove_handles([self.pin])
             self.pin = None
