@@ -255,5 +255,29 @@ assert bpy.ops.hf.update() == {"FINISHED"}
 bpy.context.view_layer.update()
 assert not armatures.carried(empties()["high"]) and empties()["high"].matrix_world == place
 
+# ---- objects with a scale, a mirror image, an armature in centimetres: binding moves nothing, and a handle goes where it is put
+for scale, with_rig in (((2, 2, 2), False), ((1, 2, 0.5), False), ((1, 1, -1), False), ((0.01, 0.01, 0.01), True), ((-3, 3, 3), True)):
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    body = tube()
+    body.scale, body.rotation_euler, body.location = scale, (0.3, 0.2, 0.1), (1, 2, 3)
+    bpy.context.view_layer.update()
+    if with_rig:
+        rig = make_rig(np.clip(z - 1.5, 0, 1))
+        rig.matrix_world = body.matrix_world
+        bend(60)
+    active(body)
+    assert bpy.ops.hf.add_groups() == {"FINISHED"}
+    np.testing.assert_allclose(mesh_data.positions_of(body.data), points, atol=1e-4)  # single precision, 3 m away
+    high = empties()["high"]
+    size = np.mean(np.abs(scale))
+    assert seen_at(high) < 1e-4 * size, (scale, seen_at(high))
+    before = high.matrix_world.translation.copy()
+    high.location += Vector((0.3, 0.2, -0.1)) * size
+    bpy.context.view_layer.update()
+    for _ in range(20):
+        bpy.ops.hf.update()
+    assert seen_at(high) < 1e-3 * size and (high.matrix_world.translation - before).length > 0.3 * size, (scale, seen_at(high))
+
 blender_addon.disable()
 print("blender armature: all right")

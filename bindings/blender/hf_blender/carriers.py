@@ -101,10 +101,9 @@ def unmark(carrier):
 
 def motion_of(obj, carrier):
     """The rigid motion of a carrier since rest, in the frame of the mesh."""
-    place = armatures.place_in(obj, carrier)
+    shift, turn, _ = armatures.place_in(obj, carrier).decompose()  # the mesh's scale goes here: place at rest has none
     rest = Matrix([carrier["hf_rest"][4 * r:4 * r + 4] for r in range(4)])
-    shift, turn, _ = (place @ rest.inverted()).decompose()
-    return np.array(Matrix.Translation(shift) @ turn.to_matrix().to_4x4())
+    return np.array(Matrix.Translation(shift) @ turn.to_matrix().to_4x4() @ rest.inverted())
 
 
 def is_dragged(carrier):
