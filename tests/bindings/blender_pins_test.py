@@ -231,5 +231,21 @@ assert np.all(held().stiffness[5 * AROUND:9 * AROUND] == 1e4)
 bpy.ops.hf.unbind()
 assert not any(key.startswith("hf_stiff") or key == paint.PINS for key in body.keys())
 
+# ---- shape keys are shown instead of a pose: handles and pins are refused, fields are made; without the keys all goes on
+body.shape_key_add(name="Basis")
+there = set(bpy.data.objects)
+for operator, options in ((bpy.ops.hf.pins, {"group": "anchors"}), (bpy.ops.hf.add_handle, {"group": "cap"}), (bpy.ops.hf.propose, {})):
+    try:
+        operator(**options)
+    except RuntimeError as error:
+        assert "tube has shape keys" in str(error) and "remove them" in str(error), error
+    else:
+        raise AssertionError(f"taken: {operator}")
+assert set(bpy.data.objects) == there and step().startswith("tube has shape keys")
+body.vertex_groups.new(name="floor").add([v for v in below if where[v] < 0.5], 1.0, "REPLACE")
+assert bpy.ops.hf.field(high="cap", low="floor") == {"FINISHED"}
+body.shape_key_clear()
+assert bpy.ops.hf.add_handle(group="cap") == {"FINISHED"} and step().startswith("Add a second handle")
+
 blender_addon.disable()
 print("blender pins: all right")

@@ -58,6 +58,19 @@ def size_of(mesh):
     return float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 0.0
 
 
+def shape_keys_of(obj):
+    """Why a mesh can show no pose, or ""."""
+    if obj.data.shape_keys is None:
+        return ""
+    return (f"{obj.name} has shape keys, and Blender shows these instead of a pose; remove them (Properties, Data, Shape Keys), "
+        "or pose a copy without them")
+
+
+def refuse_shape_keys(obj):
+    if shape_keys_of(obj):
+        raise hf.UnsupportedError(shape_keys_of(obj))
+
+
 def keep_pose(mesh, rest, posed):
     """Writes a pose into a mesh. Undo, a saved file and a copy take the attributes along with the mesh."""
     if REST not in mesh.attributes:  # until now the mesh itself holds it

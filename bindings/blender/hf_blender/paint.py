@@ -80,6 +80,7 @@ def stiffen(obj, found, group, most):
 def pin(obj, found, group):
     """The painted vertices of a group hold. An empty group: none do."""
     if group:
+        mesh_data.refuse_shape_keys(obj)
         weights = mesh_data.group_weights(obj, group)
         if not weights.any():
             raise hf.EmptyError(f"the weights of {group} are 0; paint what holds in Weight Paint first")

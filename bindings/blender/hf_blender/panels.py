@@ -4,7 +4,7 @@ import textwrap
 
 import bpy
 
-from . import armatures, carriers, operators, paint, quads, session, skinning
+from . import armatures, carriers, mesh_data, operators, paint, quads, session, skinning
 from .operators import mesh_of
 
 
@@ -18,6 +18,8 @@ def next_step(obj, found):
         return "Select a mesh."
     if not len(obj.data.polygons):
         return f"{obj.name} has no faces: select another mesh."
+    if obj.data.shape_keys is not None:
+        return f"{mesh_data.shape_keys_of(obj)}. Fields, weights and quads can be made."
     if obj.get("hf_key") in session.unbound:
         return "Undo the edit, or mend the mesh in Edit Mode. Or press Unbind, and propose handles again."
     if found is None and session.handles_of(obj):  # a file that was opened

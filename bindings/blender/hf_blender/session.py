@@ -243,6 +243,8 @@ class Session:
     def update(self, obj, write=True):
         """The pose from where the carriers stand, into the mesh."""
         begin = time.perf_counter()
+        if self.pose.handle_count:
+            mesh_data.refuse_shape_keys(obj)
         found = self.sync(obj)
         if found:
             motions = [carriers.motion_of(obj, carrier) for carrier in found.values()]
@@ -362,6 +364,7 @@ def take_up(obj, made):
 def add_handles(obj, regions, names, layer=0):
     """An empty at the centre of each region of the mesh at rest; all of them or none."""
     session = session_of(obj)
+    mesh_data.refuse_shape_keys(obj)
     session.sync(obj)
     for vertices, name in zip(regions, names):
         if not len(vertices):
@@ -376,6 +379,7 @@ def add_bones(obj, armature, layer=0, share=0.5):
     if armature is None or armature.type != "ARMATURE":
         raise hf.InvalidArgumentError("select an armature and the mesh")
     session = session_of(obj)
+    mesh_data.refuse_shape_keys(obj)
     session.sync(obj)
     named = [bone.name for bone in armature.pose.bones if bone.name in obj.vertex_groups]
     groups = dict(zip(named, mesh_data.groups_vertices(obj, named)))
