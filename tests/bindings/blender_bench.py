@@ -15,9 +15,10 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
-bpy.ops.preferences.addon_enable(module="hf_blender")
-from hf_blender import mesh_data, session  # noqa: E402
+sys.path.insert(0, os.environ["HF_TESTS"])
+import blender_addon  # noqa: E402
+
+mesh_data, session = blender_addon.modules("mesh_data", "session")
 
 
 def sphere(name, n):

@@ -4,38 +4,15 @@ and go on."""
 import os
 import sys
 
-import bmesh
 import bpy
+import bmesh  # a part of bpy where this is a module
 import numpy as np
 
 sys.path.insert(0, os.environ["HF_TESTS"])
-bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
-bpy.ops.preferences.addon_enable(module="hf_blender")
-from hf_blender import mesh_data, panels, session  # noqa: E402
+import blender_addon  # noqa: E402
+from blender_bodies import AROUND, RINGS, active, tube  # noqa: E402
 
-RINGS, AROUND = 41, 16
-
-
-def tube():
-    """A closed tube along z from 0 to 4, thick 0.5."""
-    turn = 2 * np.pi * np.arange(AROUND) / AROUND
-    points = [(0.5 * np.cos(t), 0.5 * np.sin(t), 0.1 * i) for i in range(RINGS) for t in turn]
-    faces = [(i * AROUND + j, i * AROUND + (j + 1) % AROUND, (i + 1) * AROUND + (j + 1) % AROUND, (i + 1) * AROUND + j)
-        for i in range(RINGS - 1) for j in range(AROUND)]
-    mesh = bpy.data.meshes.new("tube")
-    mesh.from_pydata(points, [], [*faces, tuple(reversed(range(AROUND))), tuple(range((RINGS - 1) * AROUND, RINGS * AROUND))])
-    obj = bpy.data.objects.new("tube", mesh)
-    bpy.context.scene.collection.objects.link(obj)
-    for name, low, high in (("hf low", 0, 0.35), ("hf middle", 1.75, 2.25), ("hf high", 3.65, 4)):
-        obj.vertex_groups.new(name=name).add([i for i, p in enumerate(points) if low <= p[2] <= high], 1.0, "REPLACE")
-    return obj
-
-
-def active(obj):
-    bpy.ops.object.select_all(action="DESELECT")
-    obj.select_set(True)
-    bpy.context.view_layer.objects.active = obj
-
+mesh_data, paint, panels, session = blender_addon.modules("mesh_data", "paint", "panels", "session")
 
 def edit(change):
     """Edit Mode around an act on the bmesh."""
@@ -120,6 +97,7 @@ saved = now()
 bpy.ops.wm.open_mainfile(filepath=path)
 body = bpy.data.objects["tube"]
 np.testing.assert_allclose(now(), saved, atol=1e-4)
+assert held() is None and panels.next_step(body, None) == "Move or turn a handle: the mesh follows."
 handles()["high"].location.x -= 1
 bpy.context.view_layer.update()
 assert held().pose.handle_count == 2
@@ -219,6 +197,45 @@ for made in (bpy.ops.hf.bind, bpy.ops.hf.add_groups, bpy.ops.hf.add_handle, bpy.
     assert made() == {"FINISHED"} and body.mode == "EDIT", made
 bpy.ops.object.mode_set(mode="OBJECT")
 assert not handles()
+
+# ---- new vertices have the mean of their neighbours' numbers: they join a handle where all neighbours are of it, however the
+# vertices are ordered; the panel says what stays and what it cost
+def shuffle(shape):
+    order = np.random.default_rng(7).permutation(len(shape.verts))
+    for v in shape.verts:
+        v.index = int(order[v.index])
+    shape.verts.sort()
+begin()
+edit(shuffle)
+assert held().remarks[0].endswith(": 3 handles stay"), held().remarks
+for cuts in (3, 1):
+    regions = {name: mesh_data.rest_of(body.data)[list(o["hf_vertices"])] for name, o in handles().items()}
+    was = len(mesh_data.rest_of(body.data))
+    edit(lambda shape: bmesh.ops.subdivide_edges(shape, edges=shape.edges[:], cuts=cuts, use_grid_fill=True))
+    places = mesh_data.rest_of(body.data)
+    for name, o in handles().items():
+        low, high = regions[name][:, 2].min() - 1e-5, regions[name][:, 2].max() + 1e-5
+        grown, inside = list(o["hf_vertices"]), np.flatnonzero((low < places[:, 2]) & (places[:, 2] < high))
+        middle = np.hypot(places[inside, 0], places[inside, 1]) > 0.4  # not those of the caps, between two handles or none
+        assert set(grown) >= set(inside[middle]) and set(grown) <= set(inside), (cuts, name, len(grown), len(inside), places[sorted(set(grown) - set(inside))], places[sorted(set(inside[middle]) - set(grown))])
+    said = held().remarks[0]
+    assert said.startswith("The mesh was edited and is bound again in ") and f"{len(places) - was} vertices are new" in said, said
+
+# ---- what is duplicated and joined: a copy of a handle's vertices is a part of the handle, another mesh is not
+begin()
+low = len(handles()["low"]["hf_vertices"])
+edit(lambda shape: bmesh.ops.duplicate(shape, geom=shape.verts[:] + shape.edges[:] + shape.faces[:]))
+assert len(handles()["low"]["hf_vertices"]) == 2 * low and held().pose.handle_count == 3
+begin()
+other = tube()
+other.location.x = 3
+bpy.context.view_layer.update()
+active(body)
+other.select_set(True)
+bpy.ops.object.join()
+bpy.context.view_layer.update()
+assert len(held().rest) == 2 * len(rest) and len(handles()["low"]["hf_vertices"]) == low
+np.testing.assert_allclose(mesh_data.rest_of(body.data)[len(rest):], rest + (3, 0, 0), atol=1e-5)
 
 # ---- a copy with its empties has handles of its own; a copy alone is a mesh of the shape that is seen; an empty alone is none
 posed = begin()
@@ -426,21 +443,21 @@ assert body["hf_stiff"] == 1e4 and held().stiffness.max() == 1e4, np.unique(held
 bpy.context.scene.hf_live = True
 
 # ---- a group that is renamed or removed: the panel says what to do, and the pose stays until then, also after undo
-assert panels.stiffness_line(body) == [("Stiffness 10000 where belt is painted", "NONE")]
+assert paint.lines_on(body, held()) == [("Stiffness 10000 where belt is painted", "NONE")]
 body.vertex_groups["belt"].name = "strap"
 bpy.context.view_layer.update()
 session.look_again()  # as after an undo of something else
 bpy.ops.hf.update()
 assert held().stiffness.max() == 1e4
-(line, icon), = panels.stiffness_line(body)
+(line, icon), = paint.lines_on(body, held())
 assert line.startswith("The vertex group belt is gone: ") and icon == "ERROR"
-assert bpy.ops.hf.stiffness(group="strap") == {"FINISHED"} and panels.stiffness_line(body)[0][1] == "NONE"
+assert bpy.ops.hf.stiffness(group="strap") == {"FINISHED"} and paint.lines_on(body, held())[0][1] == "NONE"
 body.vertex_groups.remove(body.vertex_groups["strap"])
-assert panels.stiffness_line(body)[0][1] == "ERROR"
+assert paint.lines_on(body, held())[0][1] == "ERROR"
 session.forget_all()  # as after opening the file again: there is no group to read
 bpy.ops.hf.update()
-assert held().stiffness.max() == 1 and panels.stiffness_line(body)[0][1] == "ERROR"
-assert bpy.ops.hf.stiffness(clear=True) == {"FINISHED"} and not panels.stiffness_line(body)
+assert held().stiffness.max() == 1 and paint.lines_on(body, held())[0][1] == "ERROR"
+assert bpy.ops.hf.stiffness(clear=True) == {"FINISHED"} and not paint.lines_on(body, held())
 
 # ---- Edit Mode: painted vertices keep their stiffness, vertices between them get it, and the button works there
 belt = body.vertex_groups.new(name="belt")
@@ -468,5 +485,5 @@ bpy.context.view_layer.update()
 active(linked)
 refused("shares its mesh with tube", group="belt")
 
-bpy.ops.preferences.addon_disable(module="hf_blender")
+blender_addon.disable()
 print("blender edit: all right")

@@ -5,7 +5,6 @@ time of the library, the time until the mesh of the quads is written, the time o
 time of that.
 """
 
-import importlib
 import math
 import os
 import sys
@@ -14,9 +13,10 @@ import time
 import bpy
 import numpy as np
 
-bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
-bpy.ops.preferences.addon_enable(module="hf_blender")
-mesh_data, quads = (importlib.import_module(f"hf_blender.{name}") for name in ("mesh_data", "quads"))
+sys.path.insert(0, os.environ["HF_TESTS"])
+import blender_addon  # noqa: E402
+
+mesh_data, quads = blender_addon.modules("mesh_data", "quads")
 CUTS, QUADS, CHANGES = [int(x) for x in sys.argv[sys.argv.index("--") + 1:]] + [58, 5000, 20][len(sys.argv) - sys.argv.index("--") - 1:]
 
 

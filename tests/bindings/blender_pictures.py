@@ -4,7 +4,6 @@ The sidebar shows the tab hf alone. Three states: bound with proposed handles; t
 quads that follow a stroke, which simulated events drag as a user would.
 """
 
-import importlib
 import math
 import os
 import sys
@@ -18,9 +17,10 @@ from mathutils import Quaternion, Vector
 MODEL, FOLDER = sys.argv[sys.argv.index("--") + 1:][:2]
 numpy.bool = bool  # Blender 3.4's own glTF importer still asks newer numpy for it
 bpy.context.preferences.view.show_splash = False
-bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
-bpy.ops.preferences.addon_enable(module="hf_blender")
-quads = importlib.import_module("hf_blender.quads")
+sys.path.insert(0, os.environ["HF_TESTS"])
+import blender_addon  # noqa: E402
+
+quads, = blender_addon.modules("quads")
 
 
 def done(made, state, *rest, shown=quads.done):

@@ -1,7 +1,6 @@
 """Quads that follow in the Blender add-on: strokes, poles and edges change, and the quads are made again."""
 
 import contextlib
-import importlib
 import io
 import math
 import os
@@ -13,18 +12,10 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-if bpy.app.version >= (4, 2, 0):  # the same zip is an extension there
-    MODULE = "bl_ext.user_default.hf_blender"
-    if "user_default" not in [repo.module for repo in bpy.context.preferences.extensions.repos]:
-        bpy.context.preferences.extensions.repos.new(name="User Default", module="user_default")
-    bpy.ops.extensions.package_install_files(filepath=os.environ["HF_ADDON_ZIP"], repo="user_default", enable_on_install=True)
-else:
-    MODULE = "hf_blender"
-    bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
-    bpy.ops.preferences.addon_enable(module=MODULE)
+sys.path.insert(0, os.environ["HF_TESTS"])
+import blender_addon  # noqa: E402
 import hf  # noqa: E402  (the package inside the add-on)
-mesh_data, panels, quads, session = (importlib.import_module(f"{MODULE}.{name}")
-    for name in ("mesh_data", "panels", "quads", "session"))
+mesh_data, panels, quads, session = blender_addon.modules("mesh_data", "panels", "quads", "session")
 
 raised = []  # Blender only prints what a handler raises
 calls = []  # of hf.Quads.update, and how they ended
@@ -43,7 +34,7 @@ def watched(function):
 
 HANDLERS = [getattr(bpy.app.handlers, f"{name}_post") for name in ("depsgraph_update", "undo", "redo", "load")]
 for handlers in HANDLERS:
-    handlers[:] = [watched(f) if f.__module__.startswith(MODULE) else f for f in handlers]
+    handlers[:] = [watched(f) if f.__module__.startswith(blender_addon.MODULE) else f for f in handlers]
 
 library_update = hf.Quads.update
 
@@ -599,7 +590,7 @@ kept = list(quads.kept.values())
 assert kept and any(k.quads for k in kept)
 for handlers in HANDLERS:
     handlers[:] = [getattr(f, "inner", f) for f in handlers]
-bpy.ops.preferences.addon_disable(module=MODULE)
+blender_addon.disable()
 assert not quads.kept and not any(k.quads for k in kept)
 assert not raised, raised[0]
 print(f"blender quads: Blender {bpy.app.version_string}: all right")

@@ -1,19 +1,18 @@
 """An armature that follows another live, in Blender without a display, held against the plain arrays of the library."""
 
-import importlib
 import math
 import os
+import sys
 
 import bpy
 import numpy as np
 from mathutils import Matrix, Quaternion, Vector
 
-MODULE = "hf_blender"
-bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
-bpy.ops.preferences.addon_enable(module=MODULE)
+sys.path.insert(0, os.environ["HF_TESTS"])
+import blender_addon  # noqa: E402
 import hf  # noqa: E402  (the package inside the add-on)
 
-retarget, panels = (importlib.import_module(f"{MODULE}.{name}") for name in ("retarget", "panels"))
+retarget, panels = blender_addon.modules("retarget", "panels")
 for leftover in list(bpy.data.objects):
     bpy.data.objects.remove(leftover)
 
@@ -209,5 +208,5 @@ robot.hf_source = None
 stood = pose_of(robot)
 bpy.context.scene.frame_set(18)
 assert far(stood, pose_of(robot)) == 0
-bpy.ops.preferences.addon_disable(module=MODULE)
+blender_addon.disable()
 print("blender retarget: all right")

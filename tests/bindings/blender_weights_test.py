@@ -2,12 +2,13 @@
 
 import math
 import os
+import sys
 
 import bpy
 import numpy as np
 
-bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
-bpy.ops.preferences.addon_enable(module="hf_blender")
+sys.path.insert(0, os.environ["HF_TESTS"])
+import blender_addon  # noqa: E402
 
 
 def cylinder(name, length, radius, rings, around, at):
@@ -96,6 +97,37 @@ np.testing.assert_allclose(sum(table(arm_mesh).values()), 1, atol=1e-5)
 pin.location.z += 0.5
 bpy.context.view_layer.update()
 assert abs(table(arm_mesh)["limb.L"][pinned] - 1) < 1e-5
+# the pin goes on after the mesh was edited, and in a file that is opened again
+def subdivided():
+    active(arm_mesh)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def pin_at(height):
+    pin.location.z += height - (pin.location.z - arm_mesh.location.z)
+    bpy.context.view_layer.update()
+    at = np.array([v.co[:] for v in arm_mesh.data.vertices])
+    place = np.array((arm_mesh.matrix_world.inverted() @ pin.location)[:])
+    return table(arm_mesh)["limb.L"][np.linalg.norm(at[:speck] - place, axis=1).argmin()]
+
+
+arm_mesh.data, whole = arm_mesh.data.copy(), arm_mesh.data
+subdivided()
+assert len(arm_mesh.data.vertices) > 2 * speck and abs(pin_at(0.5) - 1) < 1e-5
+arm_mesh.data = whole
+assert abs(pin_at(0.75) - 1) < 1e-5
+path = os.path.join(os.path.dirname(os.environ["HF_ADDON_ZIP"]), "pinned.blend")
+bpy.ops.wm.save_as_mainfile(filepath=path)
+bpy.ops.wm.open_mainfile(filepath=path)
+arm_mesh, skeleton = bpy.data.objects["arm mesh"], bpy.data.objects["skeleton"]
+pin = next(o for o in bpy.data.objects if "hf_pin" in o)
+assert abs(pin_at(1.25) - 1) < 1e-5
+pin_at(1.0)
+active(arm_mesh)
+skeleton.select_set(True)
 arm_mesh.vertex_groups["limb.L"].lock_weight = True
 held_rows = table(arm_mesh)["limb.L"]
 bpy.data.objects.remove(pin)
@@ -171,5 +203,5 @@ try:
     print("undone")
 except RuntimeError as error:  # no undo stack without a window in some builds
     print("undo not to be had here:", error)
-bpy.ops.preferences.addon_disable(module="hf_blender")
+blender_addon.disable()
 print("blender weights: all right")

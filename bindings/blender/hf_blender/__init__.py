@@ -8,6 +8,7 @@ bl_info = {
 
 import pathlib
 import sys
+import time
 
 _vendor = str(pathlib.Path(__file__).resolve().parent / "vendor")  # the package hf with libhf.so
 if _vendor not in sys.path:
@@ -17,8 +18,14 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import carriers, copies, operators, panels, quad_operators, quads, retarget, rig, session, skinning  # noqa: E402
+from . import armatures, carriers, copies, operators, paint, panels, quad_operators, quads, retarget, rig, session, skinning  # noqa: E402
 from .operators import refresh  # noqa: E402
+
+
+# A painted group is read when the brush has rested for so many seconds: 50,000 vertices take 20 ms to read. Half of it would
+# catch a hand between two strokes, double it is seen as a wait.
+PAINT_WAIT = 0.2
+painted_at = 0.0  # when Blender last told of a stroke
 
 
 def follow(scene, keys=None):
@@ -54,10 +61,42 @@ def look_at_edits(depsgraph):
     return keys
 
 
+def look_at_paint(scene, depsgraph):
+    """Meshes whose painted groups may have changed are read again: at once, or when the brush rests."""
+    global painted_at
+    changed = {update.id.original for update in depsgraph.updates if isinstance(update.id, bpy.types.Mesh)}
+    keys = set()
+    for obj in scene.objects if changed and session.sessions else ():
+        found = session.sessions.get(obj.get("hf_key")) if obj.type == "MESH" and obj.data in changed else None
+        if found is None:
+            continue
+        ours, found.wrote = found.wrote, False
+        if (obj.mode == "WEIGHT_PAINT" or not ours) and obj.mode != "EDIT" and (paint.PINS in obj or paint.STIFF_GROUP in obj):
+            found.repainted = True
+            keys.add(obj["hf_key"])
+    if bpy.app.background or not keys:
+        return keys
+    painted_at = time.monotonic()
+    if not bpy.app.timers.is_registered(on_paint):
+        bpy.app.timers.register(on_paint, first_interval=PAINT_WAIT)
+    return set()
+
+
+def on_paint():
+    """The timer of painted groups. Blender calls it again after the seconds that it returns; None: never."""
+    rest = painted_at + PAINT_WAIT - time.monotonic()
+    if rest > 0:
+        return rest
+    if bpy.context.scene.hf_live:
+        follow(bpy.context.scene, {key for key, found in session.sessions.items() if found.repainted})
+    return None
+
+
 @persistent
 def on_depsgraph(scene, depsgraph):
     if operators.busy() or depsgraph.mode == "RENDER":
         return
+    repainted = look_at_paint(scene, depsgraph)
     with operators.quiet():
         copies.part()
         quads.on_depsgraph(scene, depsgraph)
@@ -71,13 +110,15 @@ def on_depsgraph(scene, depsgraph):
                 skinning.follow_pins(key)
         except hf.HfError as error:
             print(f"hf: {error.message}")
-    keys = edited
+    keys = edited | repainted
     for update in depsgraph.updates:
         item = update.id
         if not isinstance(item, bpy.types.Object):
             continue
         if item.type == "EMPTY" and update.is_updated_transform and "hf_key" in item:
-            keys.add(item["hf_key"])
+            found = session.sessions.get(item["hf_key"])
+            if found is None or found.stood.get(item.get("hf_id")) != armatures.stand_of(item.original):
+                keys.add(item["hf_key"])
         elif item.type == "ARMATURE" and item.get("hf_bones"):  # moved, or posed
             keys |= {bone["hf_key"] for bone in carriers.bones_of(item.original)}
     held = carriers.carriers_in(scene.objects)
@@ -111,6 +152,7 @@ def on_undo(*_):
     session.look_again()
     with operators.quiet():
         copies.part(always=True)
+        bpy.context.view_layer.update()  # after an undo Blender 5 has no place of an object until it is evaluated
     if bpy.context.scene.hf_live:
         follow(bpy.context.scene)
     with operators.quiet():
@@ -162,8 +204,9 @@ def register():
 def unregister():
     for name, function in HANDLERS:
         getattr(bpy.app.handlers, name).remove(function)
-    if bpy.app.timers.is_registered(quads.tick):
-        bpy.app.timers.unregister(quads.tick)
+    for timer in (quads.tick, on_paint):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
     quads.forget()
     quads.known = None
     skinning.forget()

@@ -3,6 +3,9 @@
 Both hold the same properties: hf_key (the mesh), hf_id, hf_layer, hf_vertices, and hf_rest, the carrier's place at rest
 in the mesh's frame. So Blender's own undo, delete and duplicate work on them, and the motion of a handle is always place
 now times place at rest inverted, scale left out.
+
+An armature that moves the mesh by a modifier moves the empties too: a constraint blends the bones as the modifier does for
+the region. The pose of the handles comes before the modifier, so the place of such an empty is taken without the constraint.
 """
 
 import uuid
@@ -13,7 +16,8 @@ from mathutils import Matrix, Quaternion
 
 import hf
 
-from . import mesh_data
+from . import armatures, mesh_data
+from .armatures import is_bone
 
 # An empty that went farther than this was moved (a share of the mesh's box) or turned (entries of its matrix): single precision
 # rounds by less, and nobody sees it.
@@ -27,10 +31,6 @@ TURN = "hf_turn"  # the rotation of the handle where the empty has none: w, x, y
 OFFERED = "hf_offered"  # where an offered empty was put
 
 
-def is_bone(carrier):
-    return isinstance(carrier, bpy.types.PoseBone)
-
-
 def bones_of(armature):
     """Bones of an armature that move handles."""
     return [bone for bone in armature.pose.bones if "hf_id" in bone] if armature.get("hf_bones") else []
@@ -38,12 +38,12 @@ def bones_of(armature):
 
 def offer(empty):
     """An empty that is no handle until it is moved."""
-    empty[OFFERED] = [x for row in empty.matrix_world for x in row]
+    empty[OFFERED] = [x for row in armatures.stand_of(empty) for x in row]
 
 
 def waits(carrier):
     place = carrier.get(OFFERED)
-    return place is not None and np.allclose(np.array(carrier.matrix_world).ravel(), place, rtol=1e-6, atol=1e-7)
+    return place is not None and np.allclose(np.array(armatures.stand_of(carrier)).ravel(), place, rtol=1e-6, atol=1e-7)
 
 
 def offered(key):
@@ -75,6 +75,7 @@ def name(obj):
 
 def strip(carrier):
     """A carrier, or a mesh, is nothing to hf any more."""
+    armatures.let_go(carrier, seen=True)
     for key in (*PROPERTIES, NAME, SEEN, FREE, TURN, OFFERED):
         if key in carrier:
             del carrier[key]
@@ -98,17 +99,16 @@ def unmark(carrier):
         carrier.property_unset(option)
 
 
-def motion_of(to_local, carrier):
-    """The rigid motion of a carrier since rest, in the mesh's frame."""
-    place = carrier.id_data.matrix_world @ carrier.matrix if is_bone(carrier) else carrier.matrix_world
+def motion_of(obj, carrier):
+    """The rigid motion of a carrier since rest, in the frame of the mesh."""
+    shift, turn, _ = armatures.place_in(obj, carrier).decompose()  # the mesh's scale goes here: place at rest has none
     rest = Matrix([carrier["hf_rest"][4 * r:4 * r + 4] for r in range(4)])
-    shift, turn, _ = (to_local @ place @ rest.inverted()).decompose()
-    return np.array(Matrix.Translation(shift) @ turn.to_matrix().to_4x4())
+    return np.array(Matrix.Translation(shift) @ turn.to_matrix().to_4x4() @ rest.inverted())
 
 
 def is_dragged(carrier):
     """True for an empty that the user alone places, on layer 0. Others give the rotation of what moves them."""
-    if is_bone(carrier) or SEEN not in carrier or carrier["hf_layer"] or carrier.parent or carrier.constraints:
+    if is_bone(carrier) or SEEN not in carrier or carrier["hf_layer"] or not armatures.is_placed_by_user(carrier):
         return False
     return carrier.animation_data is None or not (carrier.animation_data.action or carrier.animation_data.drivers)
 
@@ -145,17 +145,20 @@ def turned(motion, carrier):
 
 
 def make_empty(obj, name, vertices, rest_positions, diagonal, layer):
-    """An empty at the centre of a region of the mesh at rest; diagonal: of the mesh's box."""
+    """An empty at the centre of a region of the mesh at rest; diagonal: of the mesh's box. An armature that moves the mesh
+    moves it from there."""
     rest = Matrix.Translation(rest_positions[np.asarray(vertices)].mean(0).tolist())
     empty = bpy.data.objects.new(f"{obj.name} {name}", None)
     empty.empty_display_type = "SPHERE"
     empty.empty_display_size = 0.05 * diagonal
+    empty.show_in_front = True  # its middle lies inside the body
     for collection in obj.users_collection or (bpy.context.scene.collection,):
         collection.objects.link(empty)
     mark(empty, obj, vertices, rest, layer)
     empty.rotation_mode = "QUATERNION"
     place, turn, _ = (obj.matrix_world @ rest).decompose()
     empty.matrix_world = Matrix.Translation(place) @ turn.to_matrix().to_4x4()  # there at once, without an evaluation
+    armatures.carry(obj, empty)
     return empty
 
 

@@ -10,6 +10,11 @@ import hf
 REST = "hf_rest"
 POSED = "hf_posed"  # where the last pose put each vertex; edits carry it along, so what differs from it is an edit
 NUMBER = "hf_number"  # of each vertex when the mesh was bound, from 1; edits carry it along, 0 is a new vertex
+HELD = "hf_held"  # the handle that has each vertex, from 1; 0 for none
+# Blender gives a new vertex on an edge or a face the mean of its neighbours' numbers, which is the number of another. So each
+# number has a scrambled one beside it, and the mean of those belongs to another number. Where all neighbours have one number,
+# the mean of 24 bits in single precision is off by up to 4; at double that, one mix in a million counts as a number.
+SCRAMBLED, MEAN_ERROR = "_scrambled", 8
 
 
 def positions_of(mesh):
@@ -53,6 +58,19 @@ def size_of(mesh):
     return float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 0.0
 
 
+def shape_keys_of(obj):
+    """Why a mesh can show no pose, or ""."""
+    if obj.data.shape_keys is None:
+        return ""
+    return (f"{obj.name} has shape keys, and Blender shows these instead of a pose; remove them (Properties, Data, Shape Keys), "
+        "or pose a copy without them")
+
+
+def refuse_shape_keys(obj):
+    if shape_keys_of(obj):
+        raise hf.UnsupportedError(shape_keys_of(obj))
+
+
 def keep_pose(mesh, rest, posed):
     """Writes a pose into a mesh. Undo, a saved file and a copy take the attributes along with the mesh."""
     if REST not in mesh.attributes:  # until now the mesh itself holds it
@@ -63,24 +81,60 @@ def keep_pose(mesh, rest, posed):
 
 
 def forget_pose(mesh):
-    for name in (REST, POSED, NUMBER):
+    for name in (REST, POSED, NUMBER, NUMBER + SCRAMBLED, HELD, HELD + SCRAMBLED):
         if name in mesh.attributes:
             mesh.attributes.remove(mesh.attributes[name])
 
 
+def scrambled(numbers):
+    """24 bits of each number (MurmurHash3's end): the mean of two is that of no number between."""
+    out = numbers.astype(np.uint32)
+    for shift, factor in ((16, 0x85EBCA6B), (13, 0xC2B2AE35), (16, 1)):
+        out = (out ^ (out >> np.uint32(shift))) * np.uint32(factor)
+    return (out >> np.uint32(8)).astype(np.int32)
+
+
+def keep_numbers(mesh, name, numbers):
+    for layer_name, values in ((name, numbers), (name + SCRAMBLED, scrambled(numbers))):
+        layer = mesh.attributes.get(layer_name) or mesh.attributes.new(layer_name, "INT", "POINT")
+        layer.data.foreach_set("value", values)
+
+
+def kept_numbers(mesh, name, error=0):
+    """Numbers of the vertices, 0 where they are a mean of several; None where the mesh has none of that name."""
+    found = []
+    for layer_name in (name, name + SCRAMBLED):
+        if layer_name in mesh.attributes and len(mesh.attributes[layer_name].data) == len(mesh.vertices):
+            found.append(np.empty(len(mesh.vertices), np.int32))
+            mesh.attributes[layer_name].data.foreach_get("value", found[-1])
+    if len(found) == 2:  # a file of before has no scrambled ones
+        found[0][abs(found[1] - scrambled(np.maximum(found[0], 0))) > error] = 0
+    return found[0] if found else None
+
+
 def number_vertices(mesh):
     """Gives each vertex its number, so that vertices are known again after an edit."""
-    numbers = mesh.attributes.get(NUMBER) or mesh.attributes.new(NUMBER, "INT", "POINT")
-    numbers.data.foreach_set("value", np.arange(1, len(mesh.vertices) + 1, dtype=np.int32))
+    keep_numbers(mesh, NUMBER, np.arange(1, len(mesh.vertices) + 1, dtype=np.int32))
 
 
 def numbers_of(mesh):
     """The number that each vertex had when the mesh was bound, -1 for a new one; None for a mesh that was never bound."""
-    if NUMBER not in mesh.attributes or len(mesh.attributes[NUMBER].data) != len(mesh.vertices):
-        return None
-    out = np.empty(len(mesh.vertices), np.int32)
-    mesh.attributes[NUMBER].data.foreach_get("value", out)
-    return out - 1
+    numbers = kept_numbers(mesh, NUMBER)
+    return None if numbers is None else numbers - 1
+
+
+def keep_regions(mesh, regions):
+    """Writes which region has each vertex, so that a new vertex between vertices of one region is known after an edit."""
+    held = np.zeros(len(mesh.vertices), np.int32)
+    for number, vertices in enumerate(regions, 1):
+        held[np.asarray(vertices, np.int64)] = number
+    keep_numbers(mesh, HELD, held)
+
+
+def regions_of(mesh):
+    """The number of the region that has each vertex, from 1; 0 outside and between two."""
+    held = kept_numbers(mesh, HELD, MEAN_ERROR)
+    return np.zeros(len(mesh.vertices), np.int32) if held is None else held
 
 
 def take_edit(mesh, rest):
@@ -132,16 +186,28 @@ def group_vertices(obj, name, least=0.5):
     return groups_vertices(obj, [name], least)[0]
 
 
+def places_of(positions):
+    """A number for each place: vertices at one place, as along a seam, have the same."""
+    order = np.lexsort(positions.T)
+    there = positions[order]
+    out = np.empty(len(positions), np.int64)
+    out[order] = np.cumsum(np.concatenate([[False], (there[1:] != there[:-1]).any(1)])[:len(positions)])
+    return out
+
+
 def group_weights(obj, name):
     """The weight of every vertex in a vertex group, 0 outside."""
     group = obj.vertex_groups.get(name)
     if group is None:
         raise hf.InvalidArgumentError(f"{obj.name} has no vertex group '{name}'")
-    out = np.zeros(len(obj.data.vertices))
+    out, index = np.zeros(len(obj.data.vertices)), group.index
     for number, vertex in enumerate(obj.data.vertices):
         for g in vertex.groups:
-            if g.group == group.index:
+            if g.group == index:
                 out[number] = g.weight
+    wrong = np.flatnonzero(~np.isfinite(out))
+    if len(wrong):
+        raise hf.NonFiniteError(f"the weight of vertex {wrong[0]} in {name} is {out[wrong[0]]}; paint it again", index=int(wrong[0]))
     return out
 
 

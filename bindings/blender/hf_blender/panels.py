@@ -4,7 +4,7 @@ import textwrap
 
 import bpy
 
-from . import carriers, operators, quads, session, skinning
+from . import armatures, carriers, mesh_data, operators, paint, quads, session, skinning
 from .operators import mesh_of
 
 
@@ -18,15 +18,31 @@ def next_step(obj, found):
         return "Select a mesh."
     if not len(obj.data.polygons):
         return f"{obj.name} has no faces: select another mesh."
+    if obj.data.shape_keys is not None:
+        return f"{mesh_data.shape_keys_of(obj)}. Fields, weights and quads can be made."
     if obj.get("hf_key") in session.unbound:
         return "Undo the edit, or mend the mesh in Edit Mode. Or press Unbind, and propose handles again."
+    if found is None and session.handles_of(obj):  # a file that was opened
+        return "Move or turn a handle: the mesh follows." if bpy.context.scene.hf_live else "Press Update, or turn Live on."
     if found is None:
         return "Press Propose handles, or Bind."
+    if obj.mode == "EDIT":
+        return "Leave Edit Mode (Tab): the handles and what is painted go along with the edit."
     placed = carriers.carriers_of(obj["hf_key"])
+    pinned = len(found.painted) > 0
+    if obj.mode == "WEIGHT_PAINT":
+        name = obj.get(paint.PINS) or obj.get(paint.STIFF_GROUP)
+        if not name:
+            return "Paint what holds and press Pins from group, or what stays rigid and press Stiffness from group."
+        return "Paint or erase: the pose follows. Go back to Object Mode to move a handle."
+    if not placed and carriers.offered(obj["hf_key"]):
+        return "Move a sphere: it becomes a handle."
+    if not placed and pinned:
+        return "Add a handle where you want to pull: select vertices in Edit Mode, press Add handle."
     if not placed:
         return "Propose handles, or add one from selected vertices."
-    if len(placed) == 1 and not carriers.offered(obj["hf_key"]):
-        return "Add a second handle: one holds, one is moved."
+    if len(placed) == 1 and not pinned and not carriers.offered(obj["hf_key"]):
+        return "Add a second handle, or paint pins: one part holds, one is moved."
     if not bpy.context.scene.hf_live:
         return "Press Update, or turn Live on."
     return "Move or turn a handle: the mesh follows."
@@ -36,14 +52,6 @@ def remarks_on(obj, found):
     """What is wrong, in sentences."""
     why = session.unbound.get(obj.get("hf_key"))
     return [why] if why else found.remarks if found else []
-
-
-def stiffness_line(obj):
-    """[(sentence, icon)] on the painted group of a mesh; [] if there is none."""
-    name = obj.get(session.STIFF + "_group")
-    if session.lost_group(obj):
-        return [(f"The vertex group {name} is gone: give a group this name, press Stiffness from group, or choose Clear.", "ERROR")]
-    return [(f"Stiffness {obj[session.STIFF]:g} where {name} is painted", "NONE")] if name else []
 
 
 def quads_step(made, active):
@@ -87,7 +95,10 @@ class HF_PT_panel(Panel, bpy.types.Panel):
         row.operator("hf.unbind")
         if found:
             bind, update = session.figures["bind_ms"], session.figures["update_ms"]
-            say(layout, context, f"{found.pose.handle_count} handles, factor {bind:.0f} ms, pose {update:.1f} ms")
+            count = len(found.numbers)
+            say(layout, context, f"{count} handle{'s' * (count != 1)}, factor {bind:.0f} ms, pose {update:.1f} ms")
+            if armatures.sentence_on(obj):
+                say(layout, context, armatures.sentence_on(obj), "ARMATURE_DATA")
         for remark in remarks_on(obj, found):
             say(layout, context, remark, "ERROR")
 
@@ -110,13 +121,14 @@ class Tool(Panel):
 class HF_PT_pose(Tool, bpy.types.Panel):
     bl_label, bl_idname = "Pose", "HF_PT_pose"
     buttons = (("hf.propose", ""), ("hf.add_handle", "Add handle from selection"), ("hf.add_groups", ""),
-        ("hf.add_bones", ""), ("hf.remove_handle", ""), ("hf.stiffness", ""), ("hf.update", ""))
+        ("hf.add_bones", ""), ("hf.remove_handle", ""), ("hf.pins", ""), ("hf.stiffness", ""), ("hf.update", ""))
 
     def draw(self, context):
         super().draw(context)
         self.layout.prop(context.scene, "hf_live")
         self.layout.prop(context.scene, "hf_lengths")
-        for sentence, icon in stiffness_line(mesh_of(context)):
+        obj = mesh_of(context)
+        for sentence, icon in paint.lines_on(obj, session.session_of(obj, bind=False)):
             say(self.layout, context, sentence, icon)
         carrier = operators.active_carrier(context)
         if carrier is not None and not carrier["hf_layer"]:

@@ -34,6 +34,7 @@ def add_proposals(obj, only_pinned=False):
     """Handles the library proposes, where no handle is yet. Those that hold come first and are drawn as cubes. The
     others hold nothing until they are moved."""
     session = session_of(obj)
+    mesh_data.refuse_shape_keys(obj)
     session.sync(obj)
     held = [*carriers.carriers_of(obj["hf_key"]).values(), *carriers.offered(obj["hf_key"])]
     taken = {v for carrier in held for v in carrier["hf_vertices"]}

@@ -14,8 +14,8 @@ from mathutils import Quaternion, Vector
 
 import hf
 
-from . import carriers, mesh_data
-from .mesh_data import faces_of, group_vertices, rest_of
+from . import armatures, carriers, edits, mesh_data, paint
+from .mesh_data import faces_of, group_vertices
 
 # The quickest to bind: on meshes of this size minimum degree is ordered in a fifth of the time that nested dissection
 # takes, and the factorisation loses less than that (50,000 vertices: 18 and 104 ms; 200,000: 86 and 461 ms).
@@ -23,8 +23,6 @@ ORDERING = hf.constants.HF_ORDERING_MINIMUM_DEGREE
 ORDERING_LIMIT = 300000  # vertices; above it nested dissection, the library's default
 
 IDENTITY = np.eye(4)
-STIFF = "hf_stiff"  # of a mesh object: the vertex group that is painted, and the stiffness where its weight is 1
-LEAST, MOST = 1e-4, 1e4  # the range of hf_surface_edit_desc.stiffness
 # Keeping lengths takes so many steps of as-rigid-as-possible on the whole surface, from the smooth pose on: the least
 # that hf_deform_desc gives for it. More make bends sharper. 50,000 vertices take 0.15 s more on two threads of a slow EPYC.
 LENGTH_STEPS = 8
@@ -76,84 +74,112 @@ def make_surface(positions, faces, window_manager=None, meanwhile=None, **option
         **options), window_manager, meanwhile)
 
 
-def take_edit(obj, rest):
-    """Takes an edit of a bound mesh into its rest shape and into the regions of its handles. Returns a sentence for the panel,
-    "" if nothing was edited."""
-    mesh = obj.data
-    before = mesh_data.numbers_of(mesh)
-    if before is None or (np.array_equal(before, np.arange(len(before))) and np.array_equal(rest, rest_of(mesh))):
-        return ""
-    mesh_data.take_edit(mesh, rest)
-    lost = []
-    for carrier in handles_of(obj):
-        region = np.flatnonzero(np.isin(before, np.array(carrier["hf_vertices"], np.int64)))
-        if len(region):
-            carrier["hf_vertices"] = region.tolist()
-        else:
-            lost.append(carrier.name)
-            carriers.unmark(carrier)
-    return "The mesh was edited and is bound again" + (f"; {', '.join(lost)} went with its vertices" if lost else "")
-
-
 def handles_of(obj):
     """The carriers of a mesh, those that wait to be moved among them."""
     return [*carriers.carriers_of(obj["hf_key"]).values(), *carriers.offered(obj["hf_key"])] if "hf_key" in obj else []
 
 
+def surface_of(mesh, rest, old, window_manager, meanwhile):
+    """The surface of a mesh as it is now, linked over its gaps. old: the session of the mesh before an edit, or None. This
+    function alone has to change when the library can replace triangles of a surface that was factorised."""
+    if old:
+        old.close()  # the new one finds its memory
+    return make_surface(rest, faces_of(mesh), window_manager, meanwhile, link_pieces=True)
+
+
 class Session:
-    def __init__(self, obj, window_manager=None, meanwhile=None):
+    def __init__(self, obj, window_manager=None, meanwhile=None, old=None):
         mesh = obj.data
         begin = time.perf_counter()
         if handles_of(obj) and mesh_data.numbers_of(mesh) is None:
             raise hf.ConflictError(f"all vertices of {obj.name} are new, as after a remesh")
         self.rest, self.faces = mesh_data.edited_rest(mesh), faces_of(mesh)
         self.editing = False  # the mesh is or was in Edit Mode or undone, and has not been looked at since
-        self.repainted = False  # an undo may have changed the stiffness, which has not been read since
-        self.surface = make_surface(self.rest, faces_of(mesh), window_manager, meanwhile, link_pieces=True)
+        self.repainted = False  # a stroke or an undo may have changed what is painted, which has not been read since
+        self.surface = surface_of(mesh, self.rest, old, window_manager, meanwhile)
         self.light = self.surface.pieces()[1]
         self.info = hf.DeformInfo()
         self.remarks = []  # sentences for the panel
         self.stiffness = np.ones(len(self.rest))  # by vertex, of the surface
+        self.painted = np.empty(0, np.uint32)  # the vertices that are pinned by painting
+        self.pin = None  # the handle that holds those of them that no other handle has
+        self.stale = True  # that handle has to be looked at, and what the mesh keeps of all regions
+        self.place_of = None  # mesh_data.places_of, once it is asked for
+        self.paint_error = ""  # why what is painted now cannot be taken
+        self.wrote = False  # Blender has yet to tell of our own change of the mesh
         self.pose = hf.Pose(self.surface)
         self.numbers = {}  # hf_id -> handle
         self.free = set()  # hf_id of handles whose rotation the pose finds
         self.limbs = {}  # hf_id -> how much follows, and the steps on the limb, of handles of layer 0
         self.placed = {}  # hf_id -> matrix of the last update
+        self.mover = ""  # the armature that moves the handles
+        self.stood = {}  # hf_id -> where a carrier stood in the last update, without what the armature does
         self.posed = self.rest.copy()
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
         carriers.name(obj)
-        self.note = take_edit(obj, self.rest)  # of an edit since the last bind; nothing is written before
+        edit = edits.take(obj, self.rest, handles_of(obj))  # since the last bind; nothing is written before
         mesh_data.number_vertices(mesh)
-        self.stiffen(obj)
+        self.follow_paint(obj)
+        armatures.carry_all(obj, handles_of(obj), anew=True)
         figures["bind_ms"] = 1e3 * (time.perf_counter() - begin)
+        self.note = edit.sentence(figures["bind_ms"], paint.words_of(obj, self)) if edit else ""
 
     def close(self):
-        self.pose.close()
-        self.surface.close()
+        if not self.surface.closed:
+            self.pose.close()
+            self.surface.close()
 
-    def stiffen(self, obj):
-        """Takes the stiffness that is painted on the mesh: s to the power of the weight. Nothing is factorised again for a
-        stroke of some hundred vertices, and the handles stay."""
-        name, most = obj.get(STIFF + "_group"), obj.get(STIFF, 1.0)
-        if lost_group(obj):
-            return  # renamed or removed: the panel says so, and nothing changes until then
-        stiffness = np.ones(len(self.rest))
-        if name:  # the least number of a Blender property, in single precision, is a little below the least of hf
-            stiffness = np.clip(most ** mesh_data.group_weights(obj, name), LEAST, MOST)
-        if np.array_equal(stiffness, self.stiffness):
-            return
-        edited = self.surface.edit(stiffness=stiffness)
-        self.pose.move_to(edited)
-        self.surface.close()
-        self.surface, self.stiffness = edited, stiffness
-        self.placed = {}  # the same handles, another pose
+    def take_paint(self, obj):
+        """Takes what is painted on the mesh. Nothing is factorised again for a stroke of some hundred vertices, and the handles
+        stay. A group that is renamed or removed changes nothing: the panel says so."""
+        pins = self.painted if paint.lost_group(obj, paint.PINS) else paint.pins_of(obj)
+        stiffness = self.stiffness if paint.lost_group(obj, paint.STIFF_GROUP) else paint.stiffness_of(obj, self)
+        if not np.array_equal(stiffness, self.stiffness):
+            edited = self.surface.edit(stiffness=stiffness)
+            self.pose.move_to(edited)
+            self.surface.close()
+            self.surface, self.stiffness = edited, stiffness
+            self.placed = {}  # the same handles, another pose
+        if not np.array_equal(pins, self.painted):
+            self.painted, self.stale, self.placed = pins, True, {}
+        self.paint_error = ""
+
+    def follow_paint(self, obj):
+        """take_paint(), and what is wrong with it goes to the panel."""
+        self.repainted = False
+        try:
+            self.take_paint(obj)
+        except hf.HfError as error:
+            self.paint_error = error.message
+
+    def unheld(self, held):
+        """The painted vertices that no handle has, nor a vertex at the same place, which the library takes as one."""
+        if not len(self.painted) or not held:
+            return self.painted
+        taken = np.concatenate([np.array(carrier["hf_vertices"], np.int64) for carrier in held])
+        places = self.places()
+        return self.painted[~np.isin(places[self.painted], places[taken])]
+
+    def places(self):
+        if self.place_of is None:
+            self.place_of = mesh_data.places_of(self.rest)
+        return self.place_of
 
     def sync(self, obj):
-        """Handles for new carriers, none for those that have gone."""
+        """Handles for new carriers and for painted pins, none for those that have gone."""
         begin = time.perf_counter()
         found = carriers.carriers_of(obj["hf_key"])
         gone = [i for i in self.numbers if i not in found]
         fresh = [i for i in found if i not in self.numbers]
+        self.stale = self.stale or bool(gone or fresh)
+        modifier = armatures.modifier_of(obj)
+        mover = modifier.object.name_full if modifier else ""
+        if self.stale or mover != self.mover:
+            self.mover = mover
+            armatures.carry_all(obj, handles_of(obj))
+        if self.stale and self.pin is not None:
+            self.pose.remove_handles([self.pin])
+            self.pin = None
         if gone:
             self.pose.remove_handles([self.numbers[i] for i in gone])
             for i in gone:
@@ -165,6 +191,11 @@ class Session:
             regions = [np.array(found[i]["hf_vertices"], np.uint32) for i in batch]
             for i, number in zip(batch, self.pose.add_handles(regions, layer=layer)):
                 self.numbers[i] = int(number)
+        if self.stale:
+            pins = self.unheld(list(found.values()))
+            self.pin = int(self.pose.add_handles([pins])[0]) if len(pins) else None
+            mesh_data.keep_regions(obj.data, [carrier["hf_vertices"] for carrier in handles_of(obj)])
+            self.stale = False
         figures["sync_ms"] = 1e3 * (time.perf_counter() - begin)
         return found
 
@@ -212,10 +243,11 @@ class Session:
     def update(self, obj, write=True):
         """The pose from where the carriers stand, into the mesh."""
         begin = time.perf_counter()
+        if self.pose.handle_count:
+            mesh_data.refuse_shape_keys(obj)
         found = self.sync(obj)
         if found:
-            to_local = obj.matrix_world.inverted()
-            motions = [carriers.motion_of(to_local, carrier) for carrier in found.values()]
+            motions = [carriers.motion_of(obj, carrier) for carrier in found.values()]
             self.free_rotations(found, motions)
             self.set_limbs(found)
             matrices = np.array([carriers.turned(m, carrier) for m, carrier in zip(motions, found.values())])
@@ -226,19 +258,15 @@ class Session:
             moved = any(not np.array_equal(self.placed.get(i, IDENTITY), m) for i, m in zip(found, matrices))
             self.note = "" if moved else self.note  # it was shown until now
             self.placed = dict(zip(found, matrices))
+            self.stood = {i: armatures.stand_of(carrier).copy() for i, carrier in found.items() if armatures.carried(carrier)}
         else:
             self.posed[:] = self.rest
             moved, self.remarks = True, []
         # a mesh that is as it should be stays untouched: Blender would recompute its normals and its box
         if write and (moved or not np.array_equal(mesh_data.positions_of(obj.data), self.posed)):
             mesh_data.keep_pose(obj.data, self.rest, self.posed)
+            self.wrote = True
         figures["update_ms"] = 1e3 * (time.perf_counter() - begin)
-
-
-def lost_group(obj):
-    """The name of the painted group, if the mesh has no such group any more; else ""."""
-    name = obj.get(STIFF + "_group", "")
-    return name if name and name not in obj.vertex_groups else ""
 
 
 def forget_removed():
@@ -254,31 +282,33 @@ def session_of(obj, window_manager=None, bind=True, meanwhile=None):
     if obj is None or obj.type != "MESH":
         raise hf.InvalidArgumentError("select a mesh object")
     key = obj.get("hf_key")
-    found = sessions.get(key)
+    found, old = sessions.get(key), None
     if not bind:
         return found
     if found and obj.mode != "EDIT" and (found.editing or len(found.rest) != len(obj.data.vertices)):
         found.editing = False
         if not found.fits(obj.data):
-            sessions.pop(key).close()
-            found = None
+            found, old = None, sessions.pop(key)
         else:
             found.repainted = True
     if found:
         if found.repainted and obj.mode != "EDIT":
-            found.repainted = False
-            found.stiffen(obj)
+            found.follow_paint(obj)
         if meanwhile:
             meanwhile()
         return found
     other = next((o for o in bpy.data.objects if o != obj and o.data == obj.data and o.get("hf_key") != key and "hf_key" in o), None)
     if other:
+        if old:
+            old.close()
         raise hf.ConflictError(f"{obj.name} shares its mesh with {other.name}, which has handles; make it a single user first")
     forget_removed()
     unbound.pop(key, None)
     try:
-        made = Session(obj, window_manager, meanwhile)
+        made = Session(obj, window_manager, meanwhile, old)
     except hf.HfError as error:
+        if old:
+            old.close()
         if key and handles_of(obj):
             unbound[key] = f"The handles of {obj.name} cannot follow the edit: {error.message}"
         raise
@@ -290,7 +320,7 @@ def look_again():
     """After an undo every mesh may be another: the next use compares it with what was bound."""
     unbound.clear()
     for found in sessions.values():
-        found.editing = found.repainted = True
+        found.editing = found.repainted = found.stale = True
 
 
 def forget_all():
@@ -310,7 +340,7 @@ def forget(obj):
     rest = mesh_data.edited_rest(obj.data)
     for carrier in handles_of(obj):
         carriers.unmark(carrier)
-    for name in (STIFF, STIFF + "_group"):
+    for name in (paint.STIFF, paint.STIFF_GROUP, paint.PINS):
         obj.pop(name, None)
     mesh_data.forget_pose(obj.data)
     obj.data.vertices.foreach_set("co", rest.ravel())
@@ -334,6 +364,7 @@ def take_up(obj, made):
 def add_handles(obj, regions, names, layer=0):
     """An empty at the centre of each region of the mesh at rest; all of them or none."""
     session = session_of(obj)
+    mesh_data.refuse_shape_keys(obj)
     session.sync(obj)
     for vertices, name in zip(regions, names):
         if not len(vertices):
@@ -348,36 +379,11 @@ def add_bones(obj, armature, layer=0, share=0.5):
     if armature is None or armature.type != "ARMATURE":
         raise hf.InvalidArgumentError("select an armature and the mesh")
     session = session_of(obj)
+    mesh_data.refuse_shape_keys(obj)
     session.sync(obj)
     named = [bone.name for bone in armature.pose.bones if bone.name in obj.vertex_groups]
     groups = dict(zip(named, mesh_data.groups_vertices(obj, named)))
     return take_up(obj, carriers.mark_bones(obj, armature, session.rest, groups, layer, share))
-
-
-def stiffen(obj, group, most):
-    """The vertices of a painted group bend less than the rest, or more for `most` below 1. An empty group: all as they are."""
-    session = session_of(obj)
-    before = {name: obj.get(name) for name in (STIFF, STIFF + "_group")}
-    if group:
-        weights = mesh_data.group_weights(obj, group)
-        if not weights.any():
-            raise hf.EmptyError(f"the weights of {group} are 0; paint it in Weight Paint first")
-        if most != 1 and np.ptp(weights) == 0:
-            raise hf.InvalidArgumentError(f"{group} is painted alike on the whole mesh, so no part bends less than another; "
-                "paint a part")
-        obj[STIFF], obj[STIFF + "_group"] = most, group
-    else:
-        obj.pop(STIFF, None)
-        obj.pop(STIFF + "_group", None)
-    try:
-        session.stiffen(obj)
-    except hf.HfError:
-        for name, value in before.items():
-            if value is None:
-                obj.pop(name, None)
-            else:
-                obj[name] = value
-        raise
 
 
 def field_between(obj, high, low):

@@ -8,12 +8,14 @@ from mathutils import Matrix
 
 import hf
 
-from .mesh_data import faces_of, on_surface, positions_of, size_of
+from .armatures import armature_of
+from .mesh_data import edited_rest, faces_of, on_surface, positions_of, size_of
 from .session import make_surface
 
 NOTE = "hf_weights_note"  # what was guessed, for the panel
 PIN = "hf_pin"
 KEY = "hf_skin_key"  # of a mesh and its pins
+COUNT = "hf_skin_count"  # of a mesh: bones for each vertex of its last weights
 
 kept = {}  # key -> Skin: pins that move change its weights at once
 
@@ -41,11 +43,6 @@ def groups_changed():
     """After an undo, nobody knows what the groups hold."""
     for skin in kept.values():
         skin.rows = None
-
-
-def armature_of(obj):
-    """The armature whose modifier moves a mesh."""
-    return next((m.object for m in obj.modifiers if m.type == "ARMATURE" and m.object), None)
 
 
 def bone_ends(obj, armature, bones):
@@ -149,10 +146,16 @@ def pin(obj, skin, places):
 
 
 def follow_pins(key):
-    """The pins of a mesh were moved or deleted: new weights, without a factorisation."""
+    """The pins of a mesh were moved or deleted: new weights, without a factorisation unless the mesh was edited or the file opened
+    since."""
     skin = kept.get(key)
     obj = next((o for o in bpy.data.objects if o.type == "MESH" and o.get(KEY) == key), None)
-    if skin is None or obj is None or len(obj.data.vertices) != skin.surface.vertex_count or NOTE not in obj:
+    if obj is None or NOTE not in obj or obj.mode == "EDIT":
+        return
+    if skin is None or len(obj.data.vertices) != skin.surface.vertex_count:
+        armature = armature_of(obj)
+        if armature is not None:
+            weights_from_bones(obj, armature, obj.get(COUNT, 4))
         return
     places = pin_places(obj, skin.names)
     if places != skin.places:
@@ -174,9 +177,9 @@ def weights_from_bones(obj, armature, count=4, window_manager=None):
         return number[bone.parent.name] if bone.parent is not None else -1
 
     places = pin_places(obj, names)
-    obj[KEY] = obj.get(KEY) or uuid.uuid4().hex
+    obj[KEY], obj[COUNT] = obj.get(KEY) or uuid.uuid4().hex, count
     forget(obj[KEY])
-    surface = make_surface(positions_of(obj.data), faces_of(obj.data), window_manager)
+    surface = make_surface(edited_rest(obj.data), faces_of(obj.data), window_manager)
     try:
         weights = hf.Weights(surface, ends[:, 0], tails=ends[:, 1], parents=[parent_of(b) for b in bones],
             influence_count=count)
@@ -209,9 +212,9 @@ def carry(source, target, count=4, distance=0.0, window_manager=None):
         raise hf.EmptyError(f"{source.name} has no vertex group" + (f" of a bone of {armature.name}" if armature else ""))
     joints, weights = group_weights(source, names)
     to_target = np.array(target.matrix_world.inverted() @ source.matrix_world)
-    points = positions_of(source.data).astype(np.float64) @ to_target[:3, :3].T + to_target[:3, 3]
+    points = edited_rest(source.data).astype(np.float64) @ to_target[:3, :3].T + to_target[:3, 3]
     with make_surface(points.astype(np.float32), faces_of(source.data), window_manager) as first:
-        with make_surface(positions_of(target.data), faces_of(target.data), window_manager) as second:
+        with make_surface(edited_rest(target.data), faces_of(target.data), window_manager) as second:
             info = hf.WeightsTransferInfo()
             found = hf.Weights.transfer(first, second, joints, weights, distance=distance, influence_count=count, info=info)
     write_groups(target, names, found.joints, found.weights)
@@ -236,7 +239,7 @@ def mirror(obj, to, count=4, window_manager=None):
         raise hf.EmptyError(f"{obj.name} has no vertex group of a bone of {armature.name}")
     joints, weights = group_weights(obj, names)
     ends = bone_ends(obj, armature, bones)
-    with make_surface(positions_of(obj.data), faces_of(obj.data), window_manager) as surface:
+    with make_surface(edited_rest(obj.data), faces_of(obj.data), window_manager) as surface:
         info, off = hf.WeightsMirrorInfo(), hf.WeightsMirrorStatistics()
         found, _, pairings = hf.Weights.mirror(surface, ends[:, 0], names, joints=joints, weights=weights, to=to, influence_count=count,
             info=info, statistics=off)

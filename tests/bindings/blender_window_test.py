@@ -1,0 +1,236 @@
+"""Blender with a window: a handle is dragged by the mouse on a mesh that an armature moves, then pins are painted with the brush.
+blender_window_test.py FOLDER, which gets three pictures: nothing bound, a handle set, painted pins."""
+
+import math
+import os
+import sys
+import traceback
+
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from mathutils import Quaternion, Vector
+
+FOLDER = sys.argv[sys.argv.index("--") + 1]
+bpy.context.preferences.view.show_splash = False
+sys.path.insert(0, os.environ["HF_TESTS"])
+import blender_addon  # noqa: E402
+from blender_bodies import active, tube  # noqa: E402
+
+mesh_data, paint, panels, session = blender_addon.modules("mesh_data", "paint", "panels", "session")
+os.makedirs(FOLDER, exist_ok=True)
+seen = {}
+
+
+def view():
+    window = bpy.context.window_manager.windows[0]
+    area = max((a for a in window.screen.areas if a.type == "VIEW_3D"), key=lambda a: a.width * a.height)
+    return window, area, next(r for r in area.regions if r.type == "WINDOW")
+
+
+def inside(operator, *arguments, **options):
+    window, area, region = view()
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        return operator(*arguments, **options)
+
+
+def picture(name):
+    path = os.path.join(FOLDER, f"{name}.png")
+    inside(bpy.ops.screen.screenshot, filepath=path)
+    assert os.path.getsize(path) > 10000, name
+
+
+def event(kind, value="PRESS", at=(0, 0), **keys):
+    """at: pixels in the 3D view."""
+    window, _, region = view()
+    window.event_simulate(type=kind, value=value, x=int(region.x + at[0]), y=int(region.y + at[1]), **keys)
+
+
+def pixel(place):
+    _, _, region = view()
+    return tuple(location_3d_to_region_2d(region, region.data, Vector(place)))
+
+
+def body():
+    return bpy.data.objects["tube"]
+
+
+def handle():
+    return bpy.data.objects["tube high"]
+
+
+def shown():
+    bpy.context.view_layer.update()
+    return mesh_data.positions_of(body().evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
+
+
+def middle():
+    return shown()[list(handle()["hf_vertices"])].mean(0)
+
+
+def held():
+    return session.session_of(body(), bind=False)
+
+
+def set_up():
+    for leftover in list(bpy.data.objects):
+        bpy.data.objects.remove(leftover)
+    for panel in bpy.types.Panel.__subclasses__():  # the tabs of others; Blender's own tab Item stays
+        if (getattr(panel, "bl_region_type", ""), getattr(panel, "bl_space_type", "")) == ("UI", "VIEW_3D") \
+                and getattr(panel, "bl_category", "") != "hf" and panel.is_registered:
+            bpy.utils.unregister_class(panel)
+    inside(bpy.ops.screen.screen_full_area, use_hide_panels=False)
+    made = tube()
+    rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
+    bpy.context.scene.collection.objects.link(rig)
+    active(rig)
+    bpy.ops.object.mode_set(mode="EDIT")
+    for name, low, high in (("lower", 0, 2), ("upper", 2, 4)):
+        bone = rig.data.edit_bones.new(name)
+        bone.head, bone.tail = (0, 0, low), (0, 0, high)
+    rig.data.edit_bones["upper"].parent = rig.data.edit_bones["lower"]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    rig.pose.bones["upper"].rotation_mode = "QUATERNION"
+    rig.pose.bones["upper"].rotation_quaternion = Quaternion((0, 0, 1), math.radians(-70))
+    share = np.clip(mesh_data.positions_of(made.data)[:, 2] - 1.5, 0, 1)
+    for name, weights in (("lower", 1 - share), ("upper", share)):
+        group = made.vertex_groups.new(name=name)
+        for vertex, weight in enumerate(weights):
+            group.add([vertex], float(weight), "REPLACE")
+    made.modifiers.new("rig", "ARMATURE").object = rig
+    for polygon in made.data.polygons:
+        polygon.use_smooth = True
+    active(made)
+
+
+def look():
+    _, area, _ = view()
+    space = area.spaces.active
+    space.show_region_ui, space.show_region_toolbar = True, False
+    space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = space.overlay.show_cursor = False
+    space.region_3d.view_perspective = "ORTHO"
+    space.region_3d.view_location = (0.6, 0, 1.8)
+    space.region_3d.view_distance = 8
+    space.region_3d.view_rotation = Quaternion((1, 0, 0), math.radians(90))  # from the front: x to the right, z up
+
+
+def open_tab():
+    window, area, _ = view()
+    sidebar = next(r for r in area.regions if r.type == "UI")
+    place = {"x": sidebar.x + sidebar.width - 12, "y": sidebar.y + sidebar.height - 62}  # the tab below Item
+    window.event_simulate(type="MOUSEMOVE", value="NOTHING", **place)
+    window.event_simulate(type="LEFTMOUSE", value="PRESS", **place)
+    window.event_simulate(type="LEFTMOUSE", value="RELEASE", **place)
+
+
+def add_handles():
+    seen["rest"] = shown()
+    assert bpy.ops.hf.add_groups() == {"FINISHED"}
+    np.testing.assert_allclose(shown(), seen["rest"], atol=1e-5)
+    active(handle())
+    bpy.ops.ed.undo_push(message="handles")
+
+
+def grab():
+    seen["from"], seen["pixel"] = middle(), pixel(handle().matrix_world.translation)
+    event("MOUSEMOVE", "NOTHING", at=seen["pixel"])
+    event("G", at=seen["pixel"])
+    event("G", "RELEASE", at=seen["pixel"])
+
+
+def drag(x, z):
+    target = pixel(Vector(seen["from"].tolist()) + Vector((x, 0, z)))
+    event("MOUSEMOVE", "NOTHING", at=target)
+    seen["to"] = Vector(seen["from"].tolist()) + Vector((x, 0, z))
+
+
+def let_go():
+    event("LEFTMOUSE", at=pixel(seen["to"]))
+    event("LEFTMOUSE", "RELEASE", at=pixel(seen["to"]))
+
+
+def dragged():
+    """The region is where the mouse was, in the pose of the armature."""
+    for _ in range(20):
+        bpy.ops.hf.update()
+    error = (Vector(middle().tolist()) - seen["to"]).length
+    assert error < 0.03, (error, middle(), seen["to"])  # 80 pixels for a unit; the mouse stands on whole ones
+    assert (handle().matrix_world.translation - seen["to"]).length < 0.03
+    step = panels.next_step(body(), held())
+    assert step == "Move or turn a handle: the mesh follows.", step
+
+
+def pose_bone():
+    bpy.data.objects["rig"].pose.bones["upper"].rotation_quaternion = Quaternion((0, 0, 1), math.radians(-20))
+    bpy.context.view_layer.update()
+    assert (handle().matrix_world.translation - Vector(middle().tolist())).length < 1e-3
+
+
+def begin_paint():
+    active(body())
+    bpy.data.objects.remove(bpy.data.objects["tube low"])
+    bpy.data.objects.remove(bpy.data.objects["tube middle"])
+    pins = body().vertex_groups.new(name="holds")
+    body().vertex_groups.active_index = pins.index
+    pins.add([v.index for v in body().data.vertices if v.co.z < 0.15], 1.0, "REPLACE")
+    assert bpy.ops.hf.pins() == {"FINISHED"}
+    seen["pinned"] = len(held().painted)
+    inside(bpy.ops.object.mode_set, mode="WEIGHT_PAINT")
+    settings = bpy.context.scene.tool_settings
+    settings.unified_paint_settings.size, settings.unified_paint_settings.weight = 30, 1
+    settings.unified_paint_settings.use_unified_strength, settings.unified_paint_settings.strength = True, 1
+    bpy.ops.ed.undo_push(message="painted")
+
+
+def stroke(x, z, kind="MOUSEMOVE", value="NOTHING"):
+    event(kind, value, at=pixel((x, -0.5, z)))
+
+
+def stroke_begins():
+    stroke(-0.2, 0.4)
+    stroke(-0.2, 0.4, "LEFTMOUSE", "PRESS")
+
+
+def stroke_ends():
+    stroke(0.2, 1.0)
+    stroke(0.2, 1.0, "LEFTMOUSE", "RELEASE")
+
+
+def painted():
+    assert len(held().painted) > seen["pinned"], "the pins follow the brush"
+    assert body().mode == "WEIGHT_PAINT"
+    at = mesh_data.positions_of(body().data)[held().painted]
+    np.testing.assert_allclose(at, mesh_data.rest_of(body().data)[held().painted], atol=1e-5)
+    seen["pinned"] = len(held().painted)
+
+
+def undo():
+    event("Z", ctrl=True)
+    event("Z", "RELEASE", ctrl=True)
+
+
+def undone():
+    assert len(held().painted) < seen["pinned"], "undo of the stroke"
+
+
+STEPS = [set_up, look, open_tab, lambda: None, lambda: picture("nothing_bound"), add_handles, lambda: None, grab, lambda: drag(0.1, 0.1),
+    lambda: drag(0.5, 0.6), let_go, dragged, lambda: picture("handle_set"), pose_bone, begin_paint, lambda: None, stroke_begins,
+    lambda: stroke(-0.1, 0.5), lambda: stroke(0, 0.7), stroke_ends, lambda: None, painted, lambda: picture("painted_pins"), undo,
+    lambda: None, undone]
+
+
+def tick():
+    try:
+        STEPS.pop(0)()
+        view()[1].tag_redraw()
+    except BaseException:
+        traceback.print_exc()
+        picture("failed")
+        os._exit(1)
+    if not STEPS:
+        print("blender window: all right", flush=True)
+        os._exit(0)
+    return 0.7
+
+
+bpy.app.timers.register(tick, first_interval=2.0)
