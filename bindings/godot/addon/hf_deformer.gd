@@ -9,6 +9,8 @@
 # A handle that is moved and was never turned has a free rotation: the pose finds it, as a wrist follows a hand. A node that
 # is turned gives the rotation from then on, from where the handle stands; free_rotation(head) frees it again.
 # set_following(head, 0.25) says how much of the body follows; keep_lengths(head) keeps the lengths of its limb.
+# attach(vertex, radius) links a piece of the mesh to what is nearest to it: a sword that stands in the hand at rest. detach(vertex)
+# lets it go.
 extends MeshInstance3D
 
 
@@ -59,10 +61,14 @@ func add_handle(point, radius, layer = 0, in_place = false):
 	var numbers = surface.add_handles_at([point], [radius], layer, in_place)
 	if not said(numbers):
 		return null
-	var info = surface.handle_info(numbers[0])
+	return node_of(numbers[0], layer, in_place)
+
+# The node of a handle that the pose has.
+func node_of(number, layer, in_place):
+	var info = surface.handle_info(number)
 	var handle = Node3D.new()
 	handle.transform.origin = Vector3(info.x, info.y, info.z)
-	handles[handle] = { "number": numbers[0], "rest": handle.transform, "layer": layer, "free": false, "given": false,
+	handles[handle] = { "number": number, "rest": handle.transform, "layer": layer, "free": false, "given": false,
 		"turn": Quaternion(0, 0, 0, 1), "following": 1.0, "limb": 0 }
 	if in_place:
 		handle.transform = Transform3D(Basis(rotation_of(info)), handle.transform.origin + Vector3(info.translation_x, info.translation_y,
@@ -88,6 +94,60 @@ func keep_lengths(handle, keep = true):
 	var steps = LENGTH_STEPS if keep else 0
 	if said(surface.set_limb_refine([handles[handle].number], steps)):
 		handles[handle].limb = steps
+
+# One link holds a piece; three hold it at their own places. More cost more: a link costs up to six elimination paths.
+const LINKS = 3
+
+# Links a piece to the nearest vertices of other pieces, within a radius of one of its vertices: the three shortest ways. The pose
+# goes on where it is, and nothing is factorised. Returns the count of links, or null with a warning.
+func attach(vertex, radius):
+	var piece = surface.pieces()
+	var rest = arrays[Mesh.ARRAY_VERTEX]
+	var own = []
+	var others = []
+	for v in rest.size():
+		if rest[v].distance_to(rest[vertex]) <= radius and piece[v] >= 0:
+			if piece[v] == piece[vertex]:
+				own.append(v)
+			else:
+				others.append(v)
+	var ways = [] # [squared length, own vertex, the nearest of another piece]
+	for v in own:
+		var way = [INF, v, -1]
+		for other in others:
+			var length = rest[v].distance_squared_to(rest[other])
+			if length < way[0]:
+				way = [length, v, other]
+		ways.append(way)
+	ways.sort()
+	var links = [] # eight numbers each: a vertex, three corners, their weights, its own weight
+	for way in ways:
+		if way[2] >= 0 and links.size() < 8 * LINKS:
+			links += [way[1], way[2], -1, -1, 1, 0, 0, 1]
+	return links.size() / 8 if said(surface.edit(null, null, links)) else null
+
+# Takes out all links between the piece of a vertex and others. The piece stays where it stands: the node that is returned holds
+# it there, and moves it when it is moved. Take the node away with remove_handle before the next attach. Null when refused.
+func detach(vertex):
+	var piece = surface.pieces()
+	var numbers = []
+	var rows = surface.links()
+	for i in rows.size():
+		for k in 3:
+			if rows[i]["weight_%d" % k] > 0 and (piece[rows[i].vertex] == piece[vertex]) != (piece[rows[i]["corner_%d" % k]] == piece[vertex]):
+				numbers.append(i)
+				break
+	var region = []
+	for v in piece.size():
+		if piece[v] == piece[vertex]:
+			region.append(v)
+	var made = surface.add_handles([region], 0, true)
+	if not said(made):
+		return null
+	if not said(surface.edit(null, null, null, numbers)):
+		surface.remove_handles(made)
+		return null
+	return node_of(made[0], 0, true)
 
 func rotation_of(info):
 	return Quaternion(info.rotation_x, info.rotation_y, info.rotation_z, info.rotation_w)
