@@ -35,7 +35,7 @@ func list(step, key, kept):
 		out.append(number(x))
 	return out
 
-# steps of calls that the class does not offer: their objects have no steps either
+# steps of calls that the class does not offer
 const NOT_OFFERED = ["graph", "weights", "transfer", "preview", "clone_vectors", "transfer_weights", "mirror"]
 
 var methods = {} # of distances, by the name of the step that chose it
@@ -331,23 +331,23 @@ func compare(a, wanted):
 			return "value at %d" % wanted["at"][k]
 	return ""
 
+# What a step that is left out would make has no steps either.
+func leave_out(step, kept):
+	left_out += 1
+	if step.has("as"):
+		kept["left out"] = kept.get("left out", []) + [step["as"]]
+	return ""
+
 func check(step, objects, kept):
-	if NOT_OFFERED.has(step["do"]):
-		left_out += 1
-		kept["left out"] = kept.get("left out", []) + [step.get("as")]
-		return ""
+	if NOT_OFFERED.has(step["do"]) or kept.get("left out", []).has(step.get("on")):
+		return leave_out(step, kept)
 	if step.has("on") and objects.get(step.on) == null:
-		if not kept.get("left out", []).has(step.on):
-			return "there is no " + step.on
-		left_out += 1
-		return ""
+		return "there is no " + step.on
 	var answer = run(step, objects, kept)
 	if answer == null:
 		return "unknown step"
 	if not answer[0]:
-		left_out += 1
-		kept["left out"] = kept.get("left out", []) + [step.get("as")]
-		return ""
+		return leave_out(step, kept)
 	done += 1
 	if step.has("error"):
 		wrong += 1
@@ -512,6 +512,8 @@ func attached():
 	var hand = deformer.add_handle(Vector3(1, 0.5, 0), 0.3)
 	var grip = 35
 	expect(deformer.attach(grip, 0.3) == 3 and deformer.surface.report().component_count == 1, "three links join two pieces")
+	for row in deformer.surface.links():
+		expect(row.length < 0.02, "the shortest ways: %s" % row.length)
 	hand.transform.origin += Vector3(0, 0, 0.5)
 	var held = deformer.update()
 	for i in 30:
