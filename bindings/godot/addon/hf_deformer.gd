@@ -119,11 +119,15 @@ func attach(vertex, radius):
 			if length < way[0]:
 				way = [length, v, other]
 		ways.append(way)
-	ways.sort()
 	var links = [] # eight numbers each: a vertex, three corners, their weights, its own weight
-	for way in ways:
-		if way[2] >= 0 and links.size() < 8 * LINKS:
-			links += [way[1], way[2], -1, -1, 1, 0, 0, 1]
+	for _link in LINKS:
+		var best = [INF, -1, -1]
+		for way in ways:
+			if way[0] < best[0]:
+				best = way
+		if best[2] >= 0:
+			links += [best[1], best[2], -1, -1, 1, 0, 0, 1]
+			ways.erase(best)
 	return links.size() / 8 if said(surface.edit(null, null, links)) else null
 
 # Takes out all links between the piece of a vertex and others. The piece stays where it stands: the node that is returned holds
