@@ -511,6 +511,7 @@ func attached():
 	deformer.add_handle(Vector3(0, 0, 0), 0.3)
 	var hand = deformer.add_handle(Vector3(1, 0.5, 0), 0.3)
 	var grip = 35
+	expect(deformer.attach(grip, 0.001) == null and deformer.surface.links().size() == 0, "nothing in reach")
 	expect(deformer.attach(grip, 0.3) == 3 and deformer.surface.report().component_count == 1, "three links join two pieces")
 	for row in deformer.surface.links():
 		expect(row.length < 0.02, "the shortest ways: %s" % row.length)

@@ -128,6 +128,9 @@ func attach(vertex, radius):
 		if best[2] >= 0:
 			links += [best[1], best[2], -1, -1, 1, 0, 0, 1]
 			ways.erase(best)
+	if links.is_empty():
+		push_warning("hf: no other piece is within %s of vertex %s" % [radius, vertex])
+		return null
 	return links.size() / 8 if said(surface.edit(null, null, links)) else null
 
 # Takes out all links between the piece of a vertex and others. The piece stays where it stands: the node that is returned holds

@@ -249,6 +249,8 @@ namespace Hf.Unity
             ways.Sort((a, b) => a.Key != b.Key ? a.Key.CompareTo(b.Key) : a.Value.Vertex.CompareTo(b.Value.Vertex));
             var links = new List<Link>();
             for (int i = 0; i < ways.Count && i < MostLinks; ++i) links.Add(ways[i].Value);
+            if (links.Count == 0)
+                throw new HfException("no other piece is within " + radius + " of vertex " + vertex, Constants.HF_ERROR_EMPTY);
             Edit(links: links.ToArray());
             return links.Count;
         }
