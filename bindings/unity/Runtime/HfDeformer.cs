@@ -250,7 +250,7 @@ namespace Hf.Unity
             var links = new List<Link>();
             for (int i = 0; i < ways.Count && i < MostLinks; ++i) links.Add(ways[i].Value);
             if (links.Count == 0)
-                throw new HfException("no other piece is within " + radius + " of vertex " + vertex, Constants.HF_ERROR_EMPTY);
+                throw new HfException("no other piece is within " + radius + " of vertex " + vertex, Hf.Native.Constants.HF_ERROR_EMPTY);
             Edit(links: links.ToArray());
             return links.Count;
         }
