@@ -47,7 +47,7 @@ func options_of(step):
 		out[key] = 3 if typeof(v) == TYPE_STRING and v == "HF_OPERATOR_COTANGENT" else v
 	return out
 
-# [offered, result, surface asked]
+# [offered, result, surface asked]; [] for an unknown step
 func run(step, objects, kept):
 	var on = objects.get(step.get("on"))
 	match step["do"]:
@@ -273,7 +273,7 @@ func run(step, objects, kept):
 		"streamlines":
 			var lines = on.streamlines(list(step, "field", kept), step.get("count"), list(step, "seeds", kept))
 			return [true, points_of(step, lines), on]
-	return null
+	return []
 
 # A surface of its own on the same factor; a stale one gives a stale one.
 func shares(on):
@@ -344,7 +344,7 @@ func check(step, objects, kept):
 	if step.has("on") and objects.get(step.on) == null:
 		return "there is no " + step.on
 	var answer = run(step, objects, kept)
-	if answer == null:
+	if answer.is_empty():
 		return "unknown step"
 	if not answer[0]:
 		return leave_out(step, kept)
