@@ -483,6 +483,21 @@ func edited():
 	var refused = HfSurface.new()
 	refused.create(torus.positions, torus.triangles, {"weld": 1})
 	expect(s.move_to(refused) == null and s.report().vertex_count == 289, "a refused move changes nothing")
+	expect(refused.move_to(s) == null and refused.get_error()["name"] == "HF_ERROR_CONFLICT" and refused.report().vertex_count == 288,
+		"a surface with nothing on it is refused too")
+	# a state with a site at a vertex that is gone stays recorded
+	s = made_of(torus.positions, torus.triangles)
+	var uncut = HfSurface.new()
+	uncut.share_from(s)
+	s.edit_cut([3, 4, 4, 5])
+	var site = s.add_site(288, 5)
+	s.record()
+	s.remove_sites([site])
+	expect(s.move_to(uncut) == true, "sites at old vertices go back")
+	var now = s.solve()
+	expect(s.undo() == null and s.get_error()["name"] == "HF_ERROR_CONFLICT" and farthest(s.solve(), now) == 0, "a refused undo")
+	s.edit_cut([3, 4, 4, 5])
+	expect(s.redo() == null and s.get_error()["name"] == "HF_ERROR_EMPTY", "nothing was undone")
 	for wrong in [[[0], [1, 2]], [null, [1]], [null, null, [1, 2]], [null, null, null, [7]], [null, null], ["text", self]]:
 		expect(s.callv("edit", wrong) == null and s.get_error().has("message"), "edit" + str(wrong))
 	for wrong in [[], [[9999]], [null, [1, 2]], [null, null, [1, 2]], [null, null, null]]:
