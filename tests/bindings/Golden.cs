@@ -502,6 +502,10 @@ static class Program
         var meshes = Directory.GetFiles(arguments[0], "*.json").ToDictionary(Path.GetFileNameWithoutExtension,
             path => (Map)Json.Parse(File.ReadAllText(path)));
         int failed = 0, wrongCalls = 0;
+        foreach (string text in new[] { "{\"do\": \"nonsense\"}",
+            "{\"do\": \"nonsense\", \"on\": \"nobody\", \"error\": \"HF_ERROR_EMPTY\"}" })
+            try { new Scene(meshes).Step((Map)Json.Parse(text)); ++failed; Console.WriteLine("FAILED an unknown step passes: " + text); }
+            catch (InvalidOperationException) { }
         foreach (string path in arguments.Skip(1))
             foreach (Map scene in (Items)((Map)Json.Parse(File.ReadAllText(path)))["scenes"])
             {

@@ -94,6 +94,74 @@ static class UnityPlays
         deformer.Release();
     }
 
+    // ---- a sword in a hand
+
+    /// <summary>The body, and a blade of 2 by 10 squares whose lower end stands in the hand at (12, 9). The arm and the blade
+    /// touch nowhere.</summary>
+    static Mesh Armed()
+    {
+        Mesh body = Body();
+        var vertices = body.vertices.ToList();
+        var triangles = body.triangles.ToList();
+        int first = vertices.Count;
+        for (int y = 0; y <= 10; ++y)
+            for (int x = 0; x <= 1; ++x) vertices.Add(new Vector3(12.1f + 0.5f * x, 8.5f + 0.5f * y, 0));
+        for (int y = 0; y < 10; ++y)
+            foreach (int k in new[] { 0, 2, 1, 1, 2, 3 }) triangles.Add(first + 2 * y + k);
+        return new Mesh { vertices = vertices.ToArray(), triangles = triangles.ToArray() };
+    }
+
+    static void Attached()
+    {
+        var body = new GameObject("body");
+        var filter = body.AddComponent<MeshFilter>();
+        Mesh rest = filter.sharedMesh = Armed();
+        int grip = Array.FindIndex(rest.vertices, v => v.x == 12.1f && v.y == 9), tip = rest.vertices.Length - 1;
+        int palm = Array.FindIndex(rest.vertices, v => v.x == 12 && v.y == 9);
+        var deformer = body.AddComponent<HfDeformer>();
+        var sword = new GameObject("sword").AddComponent<Sword>(); // of the README
+        sword.body = deformer;
+        sword.grip = grip;
+        sword.reach = 1.2f;
+        Handle(deformer, new Vector3(2, 0, 0));
+        HfHandle hand = Handle(deformer, new Vector3(12, 9, 0));
+        Func<int, Vector3> at = v => filter.sharedMesh.vertices[v];
+        Action<Vector3> drag = to =>
+        {
+            hand.transform.localPosition = to;
+            for (int frame = 0; frame < 60; ++frame) Send(deformer, "LateUpdate");
+        };
+        drag(new Vector3(12, 9, 0));
+        drag(new Vector3(10, 12, 2));
+        Expect(Far(at(grip), rest.vertices[grip]) < 1e-4, "a sword that nothing links stays at rest");
+        sword.TakeUp();
+        Expect(deformer.Surface.Links().Length == 3 && deformer.Surface.Report.ComponentCount == 1, "three links join the sword to the hand");
+        Expect(deformer.Surface.Links().Count(link => link.Length < 0.11) == 2, "by the shortest ways");
+        drag(new Vector3(9, 13, 2));
+        Vector3 held = at(grip), heldTip = at(tip);
+        Expect(Far(held, at(palm)) < 0.2 && Math.Abs(Far(held, heldTip) - Far(rest.vertices[grip], rest.vertices[tip])) < 0.05,
+            "the sword follows the hand that is dragged, and keeps its length: " + Far(held, at(palm)));
+        sword.Drop();
+        HfHandle dropped = deformer.GetComponentsInChildren<HfHandle>().Last();
+        Expect(deformer.Surface.Report.ComponentCount == 2 && deformer.Surface.Links().Length == 0, "a sword that is dropped is a component");
+        drag(new Vector3(12, 9, 0));
+        Expect(deformer.LastError == null && Far(at(grip), held) < 0.02 && Far(at(tip), heldTip) < 0.02 && Far(at(palm), held) > 3,
+            "it stays where it was dropped while the hand goes on: " + Far(at(grip), held));
+        Vector3 place = dropped.transform.localPosition;
+        dropped.transform.localPosition = new Vector3(place.x, place.y - 4, place.z);
+        Send(deformer, "LateUpdate");
+        Expect(Math.Abs(at(tip).y - heldTip.y + 4) < 0.02, "its handle lets it fall");
+        sword.TakeUp();
+        Expect(deformer.GetComponentsInChildren<HfHandle>().Length == 2, "the handle of the dropped sword goes");
+        drag(new Vector3(10, 12, 2));
+        Expect(Far(at(grip), at(palm)) < 0.2, "it is taken up again");
+        try { deformer.Attach(tip, 0.1f); Expect(false, "nothing in reach is said"); }
+        catch (HfException failure) { Expect(failure.Message.Contains("no other piece"), "nothing in reach is said: " + failure.Message); }
+        deformer.Edit(new uint[] { 0, 1 }, new double[] { 100, 100 });
+        Expect(deformer.Surface.Stiffness()[1] == 100, "stiffness in place");
+        deformer.Release();
+    }
+
     // ---- one skeleton on another
 
     static readonly string[] names = { "hips", "spine", "head", "left_thigh", "left_shin", "left_foot", "right_thigh",
@@ -180,6 +248,7 @@ static class UnityPlays
     static int Main()
     {
         Following();
+        Attached();
         Retargeted();
         return failed == 0 ? 0 : 1;
     }

@@ -3,12 +3,23 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Reflection;
 
 namespace UnityEngine
 {
     public class Object
     {
         public virtual string name { get; set; }
+        /// <summary>At once; Unity waits for the end of the frame.</summary>
+        public static void Destroy(GameObject gone)
+        {
+            foreach (Component one in gone.components.OfType<MonoBehaviour>())
+            {
+                var told = one.GetType().GetMethod("OnDestroy", BindingFlags.Instance | BindingFlags.NonPublic);
+                if (told != null) told.Invoke(one, null);
+            }
+            gone.transform.parent.children.Remove(gone.transform);
+        }
         public static T Instantiate<T>(T original) where T : Object { return (T)original.MemberwiseClone(); }
     }
     public class Component : Object

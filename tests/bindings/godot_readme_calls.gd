@@ -22,11 +22,11 @@ func _initialize():
 	surface.deform()
 @BLOCK@
 	var missing = 0
-	var results = {"lines": lines, "faces": faces, "crosses": crosses, "found": found, "smooth": smooth, "bones": bones}
+	var results = {"lines": lines, "faces": faces, "crosses": crosses, "found": found, "smooth": smooth, "bones": bones, "corners": corners}
 	for name in results:
 		if results[name] == null or results[name].is_empty():
 			printerr(name, " of the README came back empty; the last error: ", surface.get_error())
 			missing += 1
-	if missing == 0 and crosses.size() == 1152 and smooth.size() == 1152:
+	if missing == 0 and crosses.size() == 1152 and smooth.size() == 1152 and surface.solve().size() == 1154:
 		print("README: all calls answered")
 	quit()

@@ -22,6 +22,17 @@ Json read(const std::filesystem::path& path) {
   return Json::parse(file);
 }
 
+// A step that the interpreter does not know ends the run, also where a failure is expected.
+void refuse_unknown_steps(const std::map<std::string, Json>& meshes) {
+  Json step = {{"do", "nonsense"}, {"on", "nobody"}, {"error", "HF_ERROR_EMPTY"}};
+  try {
+    Scene(meshes).step(step, false);
+  } catch (const std::exception& error) {
+    if (std::string(error.what()) == "unknown step nonsense") return;
+  }
+  throw std::runtime_error("an unknown step passes");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -30,6 +41,7 @@ int main(int argc, char** argv) try {
   std::map<std::string, Json> meshes;
   for (const auto& entry : std::filesystem::directory_iterator(arguments[0]))
     meshes[entry.path().stem().string()] = read(entry.path());
+  refuse_unknown_steps(meshes);
   const bool fill = arguments.size() == 4 && arguments[2] == "--fill";
   int failures = 0, wrong_calls = 0;
   for (size_t i = 1; i < (fill ? 2 : arguments.size()); ++i) {

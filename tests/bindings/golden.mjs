@@ -473,6 +473,14 @@ function checkStep(hf, step, meshes, objects, kept, hear) {
 
 export function run(hf, meshes, scenes, hear) {
   const failures = [];
+  for (const step of [{ do: 'nonsense' }, { do: 'nonsense', on: 'nobody', error: 'HF_ERROR_EMPTY' }]) {
+    try {
+      checkStep(hf, step, meshes, {}, {});
+      failures.push(`an unknown step passes: ${JSON.stringify(step)}`);
+    } catch (error) {
+      if (!/unknown step/.test(error.message)) throw error;
+    }
+  }
   for (const scene of scenes) {
     const [objects, kept] = [{}, {}];
     scene.steps.forEach((step, place) => {

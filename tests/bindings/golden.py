@@ -357,12 +357,24 @@ class Scene:
             check_struct(result, step.get("expect", {}))
 
 
+def refuse_unknown_steps(meshes):
+    """A step that the interpreter does not know fails, also where a failure is expected."""
+    for step in ({"do": "nonsense"}, {"do": "nonsense", "on": "nobody", "error": "HF_ERROR_EMPTY"}):
+        try:
+            Scene(meshes).step(step)
+        except ValueError as error:
+            assert "unknown step nonsense" in str(error), error
+        else:
+            raise AssertionError(f"an unknown step passes: {step}")
+
+
 def load_meshes():
     return {path.stem: json.loads(path.read_text()) for path in (GOLDEN / "meshes").glob("*.json")}
 
 
 def main(paths):
     meshes, failed, wrong = load_meshes(), 0, 0
+    refuse_unknown_steps(meshes)
     for path in paths:
         for scene in json.loads(pathlib.Path(path).read_text())["scenes"]:
             runner = Scene(meshes)

@@ -116,7 +116,19 @@ macro_rules! figures {
     }};
 }
 
-impl Scene<'_> {
+impl<'a> Scene<'a> {
+    fn on(meshes: &'a HashMap<String, Value>) -> Self {
+        Scene {
+            meshes,
+            objects: HashMap::new(),
+            kept: HashMap::new(),
+            saved: HashMap::new(),
+            solver_pasts: HashMap::new(),
+            direction_pasts: HashMap::new(),
+            region_pasts: HashMap::new(),
+            weights_pasts: HashMap::new(),
+        }
+    }
     fn doubles(&self, step: &Value, key: &str) -> Option<Vec<f64>> {
         match &step[key] {
             Value::Array(list) => Some(list.iter().map(number).collect()),
@@ -904,7 +916,11 @@ impl Scene<'_> {
             "weights" | "set_joints" | "set_pins" | "set_locks" | "record_weights"
             | "undo_weights" | "redo_weights" | "clone_weights" | "weights_info" | "joint_flags"
             | "helpers" | "skin_weights" | "transfer_weights" | "mirror" => self.weights_step(what, step),
-            _ => self.surface_step(what, step),
+            "update_quads" | "edit_surface" | "report" | "surface_info" | "surface_statistics"
+            | "components" | "save" | "cast_ray" | "find_vertex" | "levels" | "isolines"
+            | "critical" | "extremities" | "propose" | "solver" | "geodesics" | "direction"
+            | "flow" | "pose" | "region" | "quads" => self.surface_step(what, step),
+            _ => panic!("unknown step {what}"),
         }
     }
 
@@ -1043,6 +1059,13 @@ fn read(path: &str) -> Value {
     Value::parse(&text)
 }
 
+#[test]
+#[should_panic(expected = "unknown step nonsense")]
+fn an_unknown_step_fails_where_a_failure_is_expected() {
+    let step = r#"{"do": "nonsense", "on": "nobody", "error": "HF_ERROR_EMPTY"}"#;
+    let _ = Scene::on(&HashMap::new()).play(&Value::parse(step));
+}
+
 fn play(file: &str) {
     let names = [
         "strip", "torus", "bar", "long_bar", "small", "lonely", "pair",
@@ -1058,17 +1081,7 @@ fn play(file: &str) {
         .collect();
     let (mut failures, mut steps, mut impossible) = (Vec::new(), 0, 0);
     for scene in read(file)["scenes"].as_array().unwrap() {
-        let (objects, kept, saved) = (HashMap::new(), HashMap::new(), HashMap::new());
-        let mut player = Scene {
-            meshes: &meshes,
-            objects,
-            kept,
-            saved,
-            solver_pasts: HashMap::new(),
-            direction_pasts: HashMap::new(),
-            region_pasts: HashMap::new(),
-            weights_pasts: HashMap::new(),
-        };
+        let mut player = Scene::on(&meshes);
         for (place, step) in scene["steps"].as_array().unwrap().iter().enumerate() {
             steps += 1;
             match player.play(step) {

@@ -2,7 +2,7 @@
 
 Writes the first ```LANGUAGE block to FILE, runs COMMAND and compares what it prints with the ```text block after it.
 A program without such a block only has to succeed. With --calls the second block is meant, a list of calls: it stands
-in for the line @BLOCK@ of TEMPLATE, one tab deeper.
+in for the line @BLOCK@ of TEMPLATE, one tab deeper. A line @BLOCK 3@ means the third block.
 """
 
 import pathlib
@@ -17,14 +17,16 @@ if arguments[0] == "--calls":
 readme, language, path, command = arguments[0], arguments[1], pathlib.Path(arguments[2]), arguments[3:]
 text = pathlib.Path(readme).read_text()
 if template is not None:
-    text = text[text.index("```" + language) + 3 :]
+    line = re.search(r"^@BLOCK(?: (\d+))?@\n", template, re.M)
+    for _ in range(int(line.group(1) or 2) - 1):
+        text = text[text.index("```" + language) + 3 :]
 match = re.search(r"^```" + language + r"\n(.*?)^```\n(?:\s*prints:?\s*```text\n(.*?)^```)?", text, re.S | re.M)
 if not match:
     sys.exit(f"error: {readme} has no {language} block")
 path.parent.mkdir(parents=True, exist_ok=True)
 program = match.group(1)
 if template is not None:
-    program = template.replace("@BLOCK@\n", "".join("\t" + line + "\n" if line else "\n" for line in program.splitlines()))
+    program = template.replace(line.group(0), "".join("\t" + row + "\n" if row else "\n" for row in program.splitlines()))
 path.write_text(program)
 run = subprocess.run(command, capture_output=True, text=True)
 if run.returncode == 77:

@@ -244,6 +244,8 @@ test_godot4() {
       "${run[@]}" none "$folder/readme.gd"
     hf_godot4_case readme_calls 'README: all calls answered' python3 "$bindings/readme_example.py" --calls "$bindings/godot_readme_calls.gd" \
       "$readme" gdscript "$folder/readme_calls.gd" "${run[@]}" none "$folder/readme_calls.gd"
+    hf_godot4_case readme_attach 'README: in the hand again' python3 "$bindings/readme_example.py" --calls "$bindings/godot_readme_attach.gd" \
+      "$readme" gdscript "$folder/readme_attach.gd" "${run[@]}" none "$folder/readme_attach.gd"
     if command -v xvfb-run >/dev/null; then
       LIBGL_ALWAYS_SOFTWARE=1 hf_godot4_case picture 'picture: ' xvfb-run -a -s '-screen 0 1024x600x24' "${run[@]}" none "$bindings/godot_picture.gd" \
         --rendering-driver opengl3 --audio-driver Dummy --resolution 1024x600

@@ -9,6 +9,8 @@
 # A handle that is moved and was never turned has a free rotation: the pose finds it, as a wrist follows a hand. A node that
 # is turned gives the rotation from then on, from where the handle stands; free_rotation(head) frees it again.
 # set_following(head, 0.25) says how much of the body follows; keep_lengths(head) keeps the lengths of its limb.
+# attach(vertex, radius) links a piece of the mesh to what is nearest to it: a sword that stands in the hand at rest. detach(vertex)
+# lets it go.
 extends MeshInstance3D
 
 const Joints = preload("res://addons/hf/hf_retarget.gd")
@@ -146,6 +148,67 @@ func keep_lengths(handle, keep = true):
 	var steps = LENGTH_STEPS if keep else 0
 	if said(surface.set_limb_refine([handles[handle].number], steps)):
 		handles[handle].limb = steps
+
+# One link holds a piece; three hold it at their own places. More cost more: a link costs up to six elimination paths.
+const LINKS = 3
+
+# Links a piece to the nearest vertices of other pieces, within a radius of one of its vertices: the three shortest ways. The pose
+# goes on where it is, and nothing is factorised. Returns the count of links, or null with a warning.
+func attach(vertex, radius):
+	var piece = surface.pieces()
+	var rest = arrays[Mesh.ARRAY_VERTEX]
+	var own = []
+	var others = []
+	for v in rest.size():
+		if rest[v].distance_to(rest[vertex]) <= radius and piece[v] >= 0:
+			if piece[v] == piece[vertex]:
+				own.append(v)
+			else:
+				others.append(v)
+	var ways = [] # [squared length, own vertex, the nearest of another piece]
+	for v in own:
+		var way = [INF, v, -1]
+		for other in others:
+			var length = rest[v].distance_squared_to(rest[other])
+			if length < way[0]:
+				way = [length, v, other]
+		ways.append(way)
+	var links = [] # eight numbers each: a vertex, three corners, their weights, its own weight
+	for _link in LINKS:
+		var best = [INF, -1, -1]
+		for way in ways:
+			if way[0] < best[0]:
+				best = way
+		if best[2] >= 0:
+			links += [best[1], best[2], -1, -1, 1, 0, 0, 1]
+			ways.erase(best)
+	if links.is_empty():
+		push_warning("hf: no other piece is within %s of vertex %s" % [radius, vertex])
+		return null
+	return links.size() / 8 if said(surface.edit(null, null, links)) else null
+
+# Takes out all links between the piece of a vertex and others. The piece stays where it stands: the node that is returned holds
+# it there, and moves it when it is moved. Take the node away with remove_handle before the next attach. Null when refused.
+func detach(vertex):
+	var piece = surface.pieces()
+	var numbers = []
+	var rows = surface.links()
+	for i in rows.size():
+		for k in 3:
+			if rows[i]["weight_%d" % k] > 0 and (piece[rows[i].vertex] == piece[vertex]) != (piece[rows[i]["corner_%d" % k]] == piece[vertex]):
+				numbers.append(i)
+				break
+	var region = []
+	for v in piece.size():
+		if piece[v] == piece[vertex]:
+			region.append(v)
+	var made = surface.add_handles([region], 0, true)
+	if not said(made):
+		return null
+	if not said(surface.edit(null, null, null, numbers)):
+		surface.remove_handles(made)
+		return null
+	return handle_of(made[0], 0, true)
 
 func rotation_of(info):
 	return Quaternion(info.rotation_x, info.rotation_y, info.rotation_z, info.rotation_w)

@@ -170,8 +170,8 @@ std::vector<Entry> all_methods() {
                             {"dispose", 0, 0, dispose},       {"report", 0, 0, report},
                             {"components", 0, 0, components}, {"save", 0, 1, save},
                             {"cast_ray", 2, 4, cast_ray},     {"find_vertex", 1, 2, find_vertex}};
-  for (const auto& more :
-       {solver_methods(), pose_methods(), field_methods(), region_methods(), retarget_methods(), made_methods()})
+  for (const auto& more : {solver_methods(), pose_methods(), field_methods(), region_methods(), edit_methods(),
+                           retarget_methods(), made_methods()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

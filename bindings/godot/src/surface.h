@@ -79,8 +79,10 @@ struct Surface {
     region = {};
     detail = {};
     proposed = {};
+    moved = false;
   }
   size_t vertex_count = 0;
+  bool moved = false;             // to an edited surface since the mesh was made or shared
   size_t target_count = 0;        // vertices of the transfer's target
   size_t target_joints = 0;       // numbers of the joints of the retarget's target
   std::vector<float> normals;     // of the last deform
@@ -102,6 +104,7 @@ const std::vector<Entry>& solver_methods();    // those of surface_solver.cpp
 const std::vector<Entry>& pose_methods();      // those of surface_pose.cpp
 const std::vector<Entry>& field_methods();     // those of surface_fields.cpp
 const std::vector<Entry>& region_methods();    // those of surface_regions.cpp
+const std::vector<Entry>& edit_methods();      // those of surface_edit.cpp
 const std::vector<Entry>& retarget_methods();  // those of surface_retarget.cpp
 const std::vector<Entry>& made_methods();      // those of surface_made.cpp
 

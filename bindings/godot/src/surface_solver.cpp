@@ -71,8 +71,20 @@ Value move_sites(Surface& s, const Arguments& a) {
 Value record(Surface& s, const Arguments&) {
   return s.solver_history.record(hf::clone_of(s.solver, hf_solver_clone)), done();
 }
-Value undo(Surface& s, const Arguments&) { return s.solver_history.undo(s.solver), done(); }
-Value redo(Surface& s, const Arguments&) { return s.solver_history.redo(s.solver), done(); }
+
+// A state that was recorded before an edit of the surface moves to the surface of now; a refused one stays recorded.
+using History = decltype(Surface::solver_history);
+template <void (History::*step)(decltype(Surface::solver)&), void (History::*back)(decltype(Surface::solver)&)>
+Value go(Surface& s, const Arguments&) {
+  (s.solver_history.*step)(s.solver);
+  try {
+    if (s.moved && s.solver) check(hf_solver_move_to(s.solver.get(), s.get()));
+  } catch (...) {
+    (s.solver_history.*back)(s.solver);
+    throw;
+  }
+  return done();
+}
 
 Value solve(Surface& s, const Arguments&) {
   Value value;
@@ -146,8 +158,8 @@ const std::vector<Entry>& solver_methods() {
       {"move_sites", 2, 2, move_sites},
       {"edit_sites", 7, 7, edit_sites},
       {"record", 0, 0, record},
-      {"undo", 0, 0, undo},
-      {"redo", 0, 0, redo},
+      {"undo", 0, 0, go<&History::undo, &History::redo>},
+      {"redo", 0, 0, go<&History::redo, &History::undo>},
       {"solve", 0, 0, solve},
       {"solve_at", 1, 1, solve_at},
       {"certify", 0, 1, certify},

@@ -98,20 +98,27 @@ namespace Hf.Unity
                 if (handle.bound) continue;
                 handle.restLocal = Rigid(transform.worldToLocalMatrix * handle.transform.localToWorldMatrix);
                 Vector4 at = handle.restLocal.GetColumn(3);
-                handle.number = pose.AddHandles(points: new double[] { at.x, at.y, at.z },
-                    radii: new double[] { handle.radius }, layer: (uint)handle.layer)[0];
-                handle.bound = true;
-                double[] middle = pose.Handle(handle.number).Centroid;
-                handle.centroid = new Vector3((float)middle[0], (float)middle[1], (float)middle[2]);
-                handle.free = false;
-                handle.told = 1;
-                handle.steps = 0;
-                handle.seen = Matrix4x4.identity;
-                handle.turn = Quaternion.identity;
-                bound.Add(handle);
-                numbers.Add(handle.number);
+                Keep(handle, pose.AddHandles(points: new double[] { at.x, at.y, at.z },
+                    radii: new double[] { handle.radius }, layer: (uint)handle.layer)[0]);
             }
         }
+
+        /// <summary>Binds a handle to one that the pose has.</summary>
+        void Keep(HfHandle handle, uint number)
+        {
+            handle.number = number;
+            handle.bound = true;
+            handle.centroid = At(pose.Handle(number).Centroid);
+            handle.free = false;
+            handle.told = 1;
+            handle.steps = 0;
+            handle.seen = Matrix4x4.identity;
+            handle.turn = Quaternion.identity;
+            bound.Add(handle);
+            numbers.Add(number);
+        }
+
+        static Vector3 At(double[] place) { return new Vector3((float)place[0], (float)place[1], (float)place[2]); }
 
         readonly List<uint> numbers = new List<uint>();
 
@@ -198,6 +205,96 @@ namespace Hf.Unity
                 if (LastError != failure.Message) Debug.LogWarning("hf: " + failure.Message, this);
                 LastError = failure.Message; // nothing has changed; said once
             }
+        }
+
+        // ---- edits: nothing is factorised, and handles stay where they have been dragged
+
+        /// <summary>Surface.Edit in place: stiffness and links of the mesh, and the pose moves along. A Solver that you have
+        /// made on Surface moves with its MoveTo.</summary>
+        public void Edit(uint[] vertices = null, double[] stiffness = null, Link[] links = null, uint[] removedLinks = null)
+        {
+            Bind();
+            Surface edited = surface.Edit(vertices, stiffness, links, removedLinks);
+            try { pose.MoveTo(edited); }
+            catch { edited.Dispose(); throw; }
+            surface.Dispose();
+            surface = edited;
+        }
+
+        /// <summary>One link holds a piece; three hold it at their own places. More cost more: a link costs up to six
+        /// elimination paths.</summary>
+        const int MostLinks = 3;
+
+        /// <summary>Links the piece of a vertex, such as a sword, to the nearest vertices of other pieces: the shortest ways
+        /// within a radius of the vertex, at rest. So the sword stands in the hand at rest. Returns the count of links.</summary>
+        public int Attach(int vertex, float radius)
+        {
+            Bind();
+            uint[] piece = surface.Pieces().Pieces;
+            Vector3[] at = rest.vertices;
+            var near = new List<int>();
+            for (int v = 0; v < at.Length; ++v) // isolated vertices have no piece
+                if (piece[v] != uint.MaxValue && Apart(at[v], at[vertex]) <= radius * radius) near.Add(v);
+            var ways = new List<KeyValuePair<float, Link>>();
+            foreach (int own in near)
+            {
+                if (piece[own] != piece[vertex]) continue;
+                int to = -1;
+                foreach (int other in near)
+                    if (piece[other] != piece[vertex] && (to < 0 || Apart(at[own], at[other]) < Apart(at[own], at[to]))) to = other;
+                if (to < 0) break;
+                ways.Add(new KeyValuePair<float, Link>(Apart(at[own], at[to]), new Link { Vertex = (uint)own,
+                    Corners = new[] { (uint)to, uint.MaxValue, uint.MaxValue }, Barycentrics = new double[] { 1, 0, 0 }, Weight = 1 }));
+            }
+            ways.Sort((a, b) => a.Key != b.Key ? a.Key.CompareTo(b.Key) : a.Value.Vertex.CompareTo(b.Value.Vertex));
+            var links = new List<Link>();
+            for (int i = 0; i < ways.Count && i < MostLinks; ++i) links.Add(ways[i].Value);
+            if (links.Count == 0)
+                throw new HfException("no other piece is within " + radius + " of vertex " + vertex, Hf.Native.Constants.HF_ERROR_EMPTY);
+            Edit(links: links.ToArray());
+            return links.Count;
+        }
+
+        static float Apart(Vector3 a, Vector3 b)
+        {
+            float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+            return x * x + y * y + z * z;
+        }
+
+        /// <summary>Takes out all links between the piece of a vertex and others. The piece stays where it stands: the handle
+        /// that is returned holds it there, and moves it. Destroy the handle when you attach the piece again.</summary>
+        public HfHandle Detach(int vertex)
+        {
+            Bind();
+            if (changed) Sync();
+            uint[] piece = surface.Pieces().Pieces;
+            Link[] links = surface.Links();
+            var removed = new List<uint>();
+            for (int i = 0; i < links.Length; ++i)
+                for (int k = 0; k < 3; ++k)
+                    if (links[i].Barycentrics[k] > 0
+                        && (piece[links[i].Vertex] == piece[vertex]) != (piece[links[i].Corners[k]] == piece[vertex]))
+                    {
+                        removed.Add((uint)i);
+                        break;
+                    }
+            var region = new List<uint>();
+            for (int v = 0; v < piece.Length; ++v) if (piece[v] == piece[vertex]) region.Add((uint)v);
+            uint number = pose.AddHandles(new[] { region.ToArray() }, inPlace: true)[0];
+            try { Edit(removedLinks: removed.ToArray()); }
+            catch { pose.RemoveHandles(new[] { number }); throw; }
+            var made = new GameObject("piece of vertex " + vertex);
+            made.transform.SetParent(transform, false);
+            var handle = made.AddComponent<HfHandle>();
+            HandleInfo stands = pose.Handle(number);
+            Vector3 centre = At(stands.Centroid), shift = At(stands.Translation);
+            double[] q = stands.Rotation;
+            made.transform.localPosition = new Vector3(centre.x + shift.x, centre.y + shift.y, centre.z + shift.z);
+            made.transform.localRotation = new Quaternion((float)q[0], (float)q[1], (float)q[2], (float)q[3]);
+            handle.rotation = HfRotation.Given;
+            handle.restLocal = Matrix4x4.Translate(centre);
+            Keep(handle, number);
+            return handle;
         }
 
         /// <summary>The harmonic field that is 1 at some vertices and 0 at others.</summary>
