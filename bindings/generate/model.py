@@ -9,7 +9,7 @@ derive(api) adds them to the description; every layer reads the same. Roles:
   handle, struct, callback, enum, flag, scalar, fixed (double[3]), value (a plain struct inside another)
 """
 
-import copy
+import pickle
 import re
 
 from comments import VIEWS
@@ -241,7 +241,7 @@ def derive(api):
 
 def elements(api):
     """The description for classes of languages: an hf_array is an array of its plain numbers, and its `twin` the other type."""
-    api = copy.deepcopy(api)
+    api = pickle.loads(pickle.dumps(api))  # copy.deepcopy takes five times as long
     for item in (f for s in api["structs"] for f in s["fields"]):
         as_numbers(item, const=item["type"] == "hf_array")
     for item in (p for f in api["functions"] for p in f["parameters"]):

@@ -14,7 +14,9 @@ machine=$("$CXX" -dumpmachine)
 # nothing in the file tells the time or the folder of the build
 # shellcheck disable=SC2206  # CXXFLAGS are words
 compile=("$CXX" -std=c++17 -O2 ${CXXFLAGS:-} -shared -s -fvisibility=hidden -fstack-protector-strong -DHF_STATIC -I"$here/../../include"
-  "$here"/src/gdextension.cpp "$here"/src/surface*.cpp)
+  "$scratch/all.cpp")
+# all files as one: their headers are most of what the compiler reads
+printf '#include "%s"\n' "$here"/src/gdextension.cpp "$here"/src/surface*.cpp >"$scratch/all.cpp"
 case "$machine" in
   x86_64*mingw*)
     # the objects of libhf.a ask to export the whole C interface

@@ -77,7 +77,8 @@ void run(const Command& options) {
   const Body horse("horse", options.vertices);
   PoseScene pose(horse);
   FieldScene field(horse);
-  const WalkScene walk("horse", "bull", options.vertices, options.pairs, options.frames / walk_count);
+  const WalkScene walk(horse.creature, make_creature("bull", options.vertices), options.pairs,
+                       options.frames / walk_count);
   const int width = pixels(320), height = pixels(240);
   write("ability_field.png", {field.draw(width, height, 0)});
   write("ability_pose.png", {pose.draw(width, height, 1)});

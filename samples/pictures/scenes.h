@@ -71,8 +71,7 @@ class FieldScene {
 class WalkScene {
  public:
   // Frames have the phases 0, 1 / frames, and so on. pairs: a pairs file of hf_transfer.
-  WalkScene(const std::string& source, const std::string& target, uint32_t vertices, const std::filesystem::path& pairs,
-            uint32_t frames);
+  WalkScene(const Creature& from, const Creature& to, const std::filesystem::path& pairs, uint32_t frames);
   Picture draw(int width, int height, uint32_t frame, bool target) const;
   // The source stands behind the target.
   Picture draw_both(int width, int height, uint32_t frame) const;

@@ -20,9 +20,7 @@ std::vector<float> coat_of(const Creature& creature) {
 
 }  // namespace
 
-WalkScene::WalkScene(const std::string& source, const std::string& target, uint32_t vertices,
-                     const std::filesystem::path& pairs, uint32_t frames) {
-  const Creature from = make_creature(source, vertices), to = make_creature(target, vertices);
+WalkScene::WalkScene(const Creature& from, const Creature& to, const std::filesystem::path& pairs, uint32_t frames) {
   const Model from_model = to_model(from), to_model_of = to_model(to);
   ProgressBar quiet(true);
   Session session(from_model, to_model_of, read_pairs(pairs), 1, true, quiet);

@@ -147,10 +147,10 @@ bool open_pipe(int ends[2]) {
 }
 
 // The reading end and the process that writes. Closed before the wait: a process that still writes ends then.
-struct Writer {
+struct Child {
   int from;
   pid_t process = -1;
-  ~Writer() {
+  ~Child() {
     close(from);
     while (process > 0 && waitpid(process, nullptr, 0) < 0 && errno == EINTR) continue;
   }
@@ -183,7 +183,7 @@ std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>& bytes, FileKind kin
   if (!open_pipe(ends)) fail("no pipe can be opened to read it; close other files and try again");
   std::string text;
   {
-    Writer writer{ends[0]};
+    Child writer{ends[0]};
     writer.process = fork();
     if (writer.process == 0) {
       close(ends[0]);

@@ -58,6 +58,17 @@ def with_toy(folder, text=TOY):
     return folder / "include"
 
 
+files_of_toy = {}
+
+
+def made_with_toy(folder):
+    """All files made from the headers with the toy: read once, since every folder has the same."""
+    include = with_toy(folder)
+    if not files_of_toy:
+        files_of_toy.update(generate.files(include))
+    return files_of_toy
+
+
 class OneDescription(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
@@ -69,12 +80,12 @@ class OneDescription(unittest.TestCase):
         self.assertTrue(all(f["noun"] or f["name"] in plan.LOOSE for f in api["functions"]))
 
     def test_a_toy_function_is_in_every_raw_layer(self):
-        made = generate.files(with_toy(self.folder))
+        made = made_with_toy(self.folder)
         for name in ("functions.txt", "api.json", "python/hf/_raw.py", "js/src/raw.js", "csharp/Hf/Raw.cs", "rust/src/raw.rs", "../include/hf/hf.hpp"):
             self.assertIn("hf_solver_get_toy_mean", made[name], name)
 
     def test_a_toy_function_is_a_method_of_python_that_is_called_with_arrays(self):
-        made = generate.files(with_toy(self.folder))
+        made = made_with_toy(self.folder)
         shutil.copytree(ROOT / "bindings/python", self.folder / "python")
         for name, text in made.items():
             if name.startswith("python/"):
@@ -87,7 +98,7 @@ class OneDescription(unittest.TestCase):
         node = shutil.which("node")
         if node is None:
             self.skipTest("no node here")
-        made = generate.files(with_toy(self.folder))
+        made = made_with_toy(self.folder)
         shutil.copytree(ROOT / "bindings/js/src", self.folder / "js/src")
         for name, text in made.items():
             if name.startswith("js/"):
@@ -110,7 +121,7 @@ class OneDescription(unittest.TestCase):
         if shutil.which("mcs") is None or shutil.which("mono") is None:
             self.skipTest("no Mono here")
         self.stub()
-        made = generate.files(with_toy(self.folder))
+        made = made_with_toy(self.folder)
         shutil.copytree(ROOT / "bindings/csharp/Hf", self.folder / "csharp/Hf")
         for name, text in made.items():
             if name.startswith("csharp/"):
@@ -124,7 +135,7 @@ class OneDescription(unittest.TestCase):
         if shutil.which("rustc") is None:
             self.skipTest("no Rust here")
         self.stub()
-        made = generate.files(with_toy(self.folder))
+        made = made_with_toy(self.folder)
         shutil.copytree(ROOT / "bindings/rust/src", self.folder / "rust/src")
         for name, text in made.items():
             if name.startswith("rust/"):
@@ -140,7 +151,7 @@ class OneDescription(unittest.TestCase):
         if shutil.which("c++") is None:
             self.skipTest("no C++ compiler here")
         self.stub()
-        made = generate.files(with_toy(self.folder))
+        made = made_with_toy(self.folder)
         (self.folder / "include/hf/hf.hpp").write_text(made["../include/hf/hf.hpp"])
         (self.folder / "toy.cpp").write_text(CALL_CPP)
         # the inline methods of the other classes call functions that the stub has not

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hf/surface.h"
+#include "support/dense.h"
 
 namespace sequences {
 namespace {
@@ -219,9 +220,9 @@ Operator make_operator(const Surface& s, int operator_kind, int field_kind) {
   if (field_kind == HF_FIELD_BIHARMONIC) {
     Eigen::VectorXd inverse(n);
     for (int v = 0; v < n; ++v) inverse[v] = mean[at(s.component[at(v)])] / count[at(s.component[at(v)])] / area[v];
-    made.matrix = Eigen::MatrixXd(made.matrix * inverse.asDiagonal() * made.matrix);
+    made.matrix = hf_test::dense_product(made.matrix, Eigen::MatrixXd(inverse.asDiagonal() * made.matrix));
   } else if (field_kind == HF_FIELD_BIHARMONIC_GRAPH) {
-    made.matrix = Eigen::MatrixXd(made.matrix * made.matrix);
+    made.matrix = hf_test::dense_product(made.matrix, made.matrix);
   }
   made.mean_diagonal.assign(at(s.component_count), 0);
   for (int v = 0; v < n; ++v) {

@@ -12,13 +12,14 @@ namespace {
 using Index = std::size_t;
 
 // Elimination with pivots of the whole rest, or of a column of it: P A Q = L U, columns first.
+template <class Real>
 struct Elimination {
   Index rows, columns;
-  std::vector<double> a;
+  std::vector<Real> a;
   std::vector<Index> row_of, column_of;
-  std::vector<double> pivots;
+  std::vector<Real> pivots;
 
-  Elimination(const double* values, Index row_count, Index column_count, bool all)
+  Elimination(const Real* values, Index row_count, Index column_count, bool all)
       : rows(row_count), columns(column_count), a(values, values + row_count * column_count) {
     for (Index i = 0; i < rows; ++i) row_of.push_back(i);
     for (Index j = 0; j < columns; ++j) column_of.push_back(j);
@@ -26,27 +27,27 @@ struct Elimination {
       Index row = k, column = k;
       for (Index j = k; j < (all ? columns : k + 1); ++j) {
         for (Index i = k; i < rows; ++i) {
-          if (std::fabs(a[i + j * rows]) > std::fabs(a[row + column * rows])) std::tie(row, column) = std::pair(i, j);
+          if (std::abs(a[i + j * rows]) > std::abs(a[row + column * rows])) std::tie(row, column) = std::pair(i, j);
         }
       }
-      pivots.push_back(std::fabs(a[row + column * rows]));
+      pivots.push_back(std::abs(a[row + column * rows]));
       if (pivots.back() == 0) continue;
       for (Index j = 0; j < columns; ++j) std::swap(a[k + j * rows], a[row + j * rows]);
       std::swap_ranges(&a[k * rows], &a[k * rows] + rows, &a[column * rows]);
       std::swap(row_of[k], row_of[row]);
       std::swap(column_of[k], column_of[column]);
-      const double* from = &a[k * rows];
+      const Real* from = &a[k * rows];
       for (Index i = k + 1; i < rows; ++i) a[i + k * rows] /= from[k];
       for (Index j = k + 1; j < columns; ++j) {
-        double* to = &a[j * rows];
-        const double times = to[k];
+        Real* to = &a[j * rows];
+        const Real times = to[k];
         for (Index i = k + 1; i < rows && times != 0; ++i) to[i] -= times * from[i];
       }
     }
   }
 
-  std::vector<double> solve(const double* b) const {
-    std::vector<double> y(rows), x(rows);
+  std::vector<Real> solve(const Real* b) const {
+    std::vector<Real> y(rows), x(rows);
     for (Index i = 0; i < rows; ++i) y[i] = b[row_of[i]];
     for (Index k = 0; k < rows; ++k) {
       for (Index i = k + 1; i < rows; ++i) y[i] -= y[k] * a[i + k * rows];
@@ -78,12 +79,12 @@ constexpr int most_sweeps = 60;
 
 struct DenseSolver::Parts {
   std::vector<double> a;
-  Elimination factor;
+  Elimination<double> factor;
 };
 
 DenseSolver::DenseSolver(const double* a, std::ptrdiff_t size, Pivots pivots) {
   const Index n = static_cast<Index>(size);
-  parts_.reset(new Parts{{a, a + n * n}, Elimination(a, n, n, pivots == full)});
+  parts_.reset(new Parts{{a, a + n * n}, Elimination<double>(a, n, n, pivots == full)});
 }
 
 DenseSolver::~DenseSolver() = default;
@@ -101,8 +102,71 @@ void DenseSolver::solve(const double* b, std::ptrdiff_t columns, double* x) cons
   }
 }
 
+void DenseSolver::correct(const double* b, std::ptrdiff_t columns, int steps, double* x) const {
+  const Index n = parts_->factor.rows;
+  for (Index c = 0; c < static_cast<Index>(columns); ++c) {
+    double* const own = x + c * n;
+    for (int step = 0; step < steps; ++step) {
+      std::vector<long double> left(b + c * n, b + (c + 1) * n);
+      for (Index j = 0; j < n; ++j) {
+        for (Index i = 0; i < n; ++i) left[i] -= static_cast<long double>(parts_->a[i + j * n]) * own[j];
+      }
+      const std::vector<double> more = parts_->factor.solve(std::vector<double>(left.begin(), left.end()).data());
+      for (Index i = 0; i < n; ++i) own[i] += more[i];
+    }
+  }
+}
+
+std::vector<long double> dense_solve(const std::vector<long double>& a, const std::vector<long double>& b) {
+  return Elimination<long double>(a.data(), b.size(), b.size(), true).solve(b.data());
+}
+
+void multiply(const double* a, std::ptrdiff_t rows, std::ptrdiff_t columns, bool transposed, const double* b,
+              std::ptrdiff_t b_columns, double* out) {
+  const Index m = static_cast<Index>(rows), n = static_cast<Index>(columns);
+  for (Index c = 0; c < static_cast<Index>(b_columns); ++c, b += transposed ? m : n, out += transposed ? n : m) {
+    std::fill_n(out, transposed ? n : m, 0.0);
+    for (Index j = 0; j < n; ++j) {
+      const double* const column = a + j * m;
+      for (Index i = 0; i < m; ++i) {
+        if (transposed)
+          out[j] += column[i] * b[i];
+        else
+          out[i] += column[i] * b[j];
+      }
+    }
+  }
+}
+
+void dense_cholesky(const double* a, std::ptrdiff_t size, double* lower) {
+  const Index n = static_cast<Index>(size);
+  std::copy_n(a, n * n, lower);
+  for (Index k = 0; k < n; ++k) {
+    double* const column = lower + k * n;
+    std::fill_n(column, k, 0.0);
+    const double pivot = std::sqrt(column[k]);
+    for (Index i = k; i < n; ++i) column[i] /= pivot;
+    for (Index j = k + 1; j < n; ++j) {
+      for (Index i = j; i < n; ++i) lower[i + j * n] -= column[i] * column[j];
+    }
+  }
+}
+
+void lower_solve(const double* lower, std::ptrdiff_t size, bool transposed, double* b, std::ptrdiff_t columns) {
+  const Index n = static_cast<Index>(size);
+  for (Index c = 0; c < static_cast<Index>(columns); ++c, b += n) {
+    for (Index step = 0; step < n; ++step) {
+      const Index k = transposed ? n - 1 - step : step;
+      const double* const column = lower + k * n;
+      for (Index i = k + 1; transposed && i < n; ++i) b[k] -= column[i] * b[i];
+      b[k] /= column[k];
+      for (Index i = k + 1; !transposed && i < n; ++i) b[i] -= column[i] * b[k];
+    }
+  }
+}
+
 std::ptrdiff_t dense_rank(const double* a, std::ptrdiff_t rows, std::ptrdiff_t columns, double threshold) {
-  const Elimination factor(a, static_cast<Index>(rows), static_cast<Index>(columns), true);
+  const Elimination<double> factor(a, static_cast<Index>(rows), static_cast<Index>(columns), true);
   const double largest = factor.pivots.empty() ? 0 : *std::max_element(factor.pivots.begin(), factor.pivots.end());
   return std::count_if(factor.pivots.begin(), factor.pivots.end(), [&](double p) { return p > threshold * largest; });
 }

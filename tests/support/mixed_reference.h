@@ -4,12 +4,12 @@
 // solved by an elimination of its own, without the library's factor, and corrected once.
 #pragma once
 #include <algorithm>
-#include <Eigen/Dense>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "engine/core.h"
+#include "support/dense.h"
 
 namespace hf_test {
 
@@ -25,29 +25,26 @@ class MixedReference {
   }
 
   std::vector<Real> field(const std::vector<double>& values) const {
-    using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-    const Eigen::Index k = static_cast<Eigen::Index>(sites_.size());
+    const std::size_t k = sites_.size();
     std::vector<std::vector<Real>> h;
-    for (Eigen::Index i = 0; i < k; ++i) {
-      std::vector<Real> unit(sites_.size(), 0);
-      unit[static_cast<std::size_t>(i)] = 1;
+    for (std::size_t i = 0; i < k; ++i) {
+      std::vector<Real> unit(k, 0);
+      unit[i] = 1;
       h.push_back(solve(unit, {}));
     }
-    Matrix b(k, k), right(k, 1);
-    for (Eigen::Index i = 0; i < k; ++i) {
-      for (Eigen::Index j = 0; j < k; ++j) {
-        Real sum = 0;
-        for (std::size_t v = 0; v < mass_.size(); ++v)
-          sum += mass_[v] * h[static_cast<std::size_t>(i)][v] * h[static_cast<std::size_t>(j)][v];
-        b(i, j) = sum;
+    std::vector<Real> b(k * k, 0);
+    for (std::size_t i = 0; i < k; ++i) {
+      for (std::size_t j = 0; j < k; ++j) {
+        for (std::size_t v = 0; v < mass_.size(); ++v) b[i * k + j] += mass_[v] * h[i][v] * h[j][v];
       }
     }
     const std::vector<Real> s(values.begin(), values.end()), plain = solve(s, {});
-    for (Eigen::Index i = 0; i < k; ++i) right(i) = row(sites_[static_cast<std::size_t>(i)], plain);
-    const Matrix c = b.fullPivLu().solve(right);
+    std::vector<Real> right;
+    for (const int site : sites_) right.push_back(row(site, plain));
+    const std::vector<Real> c = dense_solve(b, right);
     std::vector<Real> load(mass_.size(), 0);
     for (std::size_t v = 0; v < mass_.size(); ++v) {
-      for (Eigen::Index i = 0; i < k; ++i) load[v] += mass_[v] * c(i) * h[static_cast<std::size_t>(i)][v];
+      for (std::size_t i = 0; i < k; ++i) load[v] += mass_[v] * c[i] * h[i][v];
     }
     return solve(s, load);
   }

@@ -21,7 +21,7 @@ inline Eigen::MatrixXd dense_operator(const hf_inner::Core& core) {
   if (!core.root) return k;
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(core.size());
   for (std::size_t v = 0; v < core.inverse_mass.size(); ++v) scale[static_cast<int>(v)] = core.inverse_mass[v];
-  return k * scale.asDiagonal() * k;
+  return dense_product(k, Eigen::MatrixXd(scale.asDiagonal() * k));
 }
 
 // sites in use only; values one row per site. Returns n x m (components without a site: zero rows). lambda: one row per

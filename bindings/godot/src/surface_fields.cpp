@@ -300,7 +300,7 @@ Value quads_update(Surface& s, const Arguments& a) {
   return with_quads_desc(a, [&](const hf_quads_desc& desc) { check(hf_quads_update(s.quads.get(), &desc)); });
 }
 
-hf_quads_info info_of(const Surface& s) {
+hf_quads_info quads_info_of(const Surface& s) {
   auto info = make<hf_quads_info>();
   check(hf_quads_get_info(s.quads.get(), &info));
   return info;
@@ -308,7 +308,7 @@ hf_quads_info info_of(const Surface& s) {
 
 Value quads_positions(Surface& s, const Arguments&) {
   auto mesh = make<hf_quads_mesh>();
-  mesh.vertex_capacity = info_of(s).vertex_count;
+  mesh.vertex_capacity = quads_info_of(s).vertex_count;
   Doubles positions(3 * size_t{mesh.vertex_capacity});
   mesh.positions = positions.data();
   check(hf_quads_get_mesh(s.quads.get(), &mesh));
@@ -317,7 +317,7 @@ Value quads_positions(Surface& s, const Arguments&) {
 
 // the four vertices of every face, counter-clockwise
 Value quads_faces(Surface& s, const Arguments&) {
-  const hf_quads_info info = info_of(s);
+  const hf_quads_info info = quads_info_of(s);
   auto mesh = make<hf_quads_mesh>();
   Numbers corners(4 * size_t{info.face_count});
   mesh.face_capacity = info.face_count;

@@ -47,14 +47,14 @@ Value region_record(Surface& s, const Arguments&) {
 Value region_undo(Surface& s, const Arguments&) { return s.region_history.undo(s.region), done(); }
 Value region_redo(Surface& s, const Arguments&) { return s.region_history.redo(s.region), done(); }
 
-hf_region_info info_of(const Surface& s) {
+hf_region_info region_info_of(const Surface& s) {
   auto info = make<hf_region_info>();
   check(hf_region_get_info(s.region.get(), &info));
   return info;
 }
 
 Value region_info(Surface& s, const Arguments&) {
-  const hf_region_info info = info_of(s);
+  const hf_region_info info = region_info_of(s);
   auto work = make<hf_region_statistics>();
   check(hf_region_get_statistics(s.region.get(), &work));
   return named({{"vertex_count", info.vertex_count},

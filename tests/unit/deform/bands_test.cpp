@@ -350,9 +350,9 @@ TEST(DenseFactor, SolvesLikeEigenAndDropsDependentUnknowns) {
     const int size = 37;
     Eigen::MatrixXd half(size, std::max(rank, 1));
     for (double& x : half.reshaped()) x = rank == 0 ? 0.0 : normal(random);
-    const Eigen::MatrixXd a = half * half.transpose();
+    const Eigen::MatrixXd other = half.transpose(), a = hf_test::dense_product(other, other, true);
     const Eigen::MatrixXd truth = Eigen::MatrixXd::NullaryExpr(size, 3, [&] { return normal(random); });
-    const Eigen::MatrixXd b = a * truth;
+    const Eigen::MatrixXd b = hf_test::dense_product(a, truth);
     Memory memory;
     Buffer<double> lower(memory, size * size);
     for (int i = 0; i < size; ++i) {
@@ -370,7 +370,7 @@ TEST(DenseFactor, SolvesLikeEigenAndDropsDependentUnknowns) {
     for (int i = 0; i < size; ++i) {
       for (int k = 0; k < 3; ++k) solved(i, k) = x[static_cast<std::size_t>(4 * i + k)];
     }
-    EXPECT_LT((a * solved - b).norm(), 1e-8 * (1 + b.norm()));
+    EXPECT_LT((hf_test::dense_product(a, solved) - b).norm(), 1e-8 * (1 + b.norm()));
     if (rank == size) {
       EXPECT_LT((solved - hf_test::DenseSolver(a).solve(b)).norm(), 1e-6 * truth.norm());
     }

@@ -273,7 +273,8 @@ TEST(Following, APinIsAsStrongAsTheFieldsAndTheSurfaceSay) {
     const Holds holds = s.holds({1, 1, share, 0.5});
     ASSERT_GT(holds.count(), 20u);
     const hf_eigen::MatrixXd z = s.free_parts(holds);
-    const hf_eigen::VectorXd given = (z.transpose() * s.inverse * z).diagonal();  // by a pin to a unit force
+    const hf_eigen::VectorXd given =
+        hf_test::dense_product(z, hf_test::dense_product(s.inverse, z), true).diagonal();  // by a pin to a unit force
     std::map<std::int32_t, double> softness;
     for (std::size_t j = 0; j < holds.count(); ++j)
       softness[s.core.mesh.component[holds.vertex[j]]] += given(static_cast<hf_eigen::Index>(j));
@@ -318,13 +319,15 @@ TEST(Following, ThePinsSolveTheSystemThatHasThemInItsMatrix) {
     }
   }
   const hf_eigen::VectorXd strength = hf_eigen::Map<const hf_eigen::VectorXd>(holds.strength.data(), m);
-  const hf_eigen::MatrixXd with_pins = s.matrix + z * strength.asDiagonal() * z.transpose(),
-                           pulled = r + z * strength.asDiagonal() * gap,
+  const hf_eigen::MatrixXd rows_of_pins = z.transpose(), strong = strength.asDiagonal() * gap,
+                           stiff = strength.asDiagonal() * rows_of_pins,
+                           with_pins = s.matrix + hf_test::dense_product(z, stiff),
+                           pulled = r + hf_test::dense_product(z, strong),
                            wanted = hf_test::DenseSolver(with_pins).solve(pulled);
   double* const solved = rows.data() + handles;
   begin_holds(holds, static_cast<std::size_t>(s.smooth->handle_count), rows.data(), state);
   gap_before(holds, solved, s.size, state);
-  const hf_eigen::MatrixXd gap_wanted = gap - z.transpose() * s.inverse * r;
+  const hf_eigen::MatrixXd gap_wanted = gap - hf_test::dense_product(z, hf_test::dense_product(s.inverse, r), true);
   for (hf_eigen::Index j = 0; j < m; ++j) {
     for (hf_eigen::Index k = 0; k < 3; ++k)
       EXPECT_NEAR(state.pull[static_cast<std::size_t>(4 * j + k)], gap_wanted(j, k), 1e-9 * gap.cwiseAbs().maxCoeff());

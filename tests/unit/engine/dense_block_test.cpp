@@ -58,7 +58,7 @@ TEST(DenseBlock, solves_with_the_present_rows_after_any_edits) {
     block.solve(x.data(), 2);
     const Eigen::MatrixXd solved =
         Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>(x.data(), k, 2);
-    EXPECT_LE((s * solved - b).cwiseAbs().maxCoeff(),
+    EXPECT_LE((hf_test::dense_product(s, solved) - b).cwiseAbs().maxCoeff(),
               1e-9 * b.cwiseAbs().maxCoeff() * s.norm() / s.cwiseAbs().minCoeff() * 1e-3 + 1e-8);
     EXPECT_LE((solved - hf_test::DenseSolver(s).solve(b)).cwiseAbs().maxCoeff(), 1e-9);
     if (present.size() > 60) {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "support/dense.h"
 #include "unit/factor/matrices.h"
 
 namespace {
@@ -94,16 +95,10 @@ TEST_F(EditedFactorTest, SweepsSolveTheEditedMatrix) {
   for (const auto& one : cases) {
     make(one[0], 2.5, one[0] != 5.0, one[1]);
     const auto factor = hf_inner::edit_factor(base, change, memory, two);
+    const hf_test::DenseSolver dense(exact);
     for (const Index m : {1, 3, 8}) {
       // the error of the reference is removed by steps with residuals in long double
-      using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-      const Eigen::MatrixXd right = random(m);
-      const Eigen::LDLT<Eigen::MatrixXd> dense(exact);
-      Eigen::MatrixXd solution = dense.solve(right);
-      for (int step = 0; step < 4; ++step) {
-        const Long residual = right.cast<long double>() - exact.cast<long double>() * solution.cast<long double>();
-        solution += dense.solve(residual.cast<double>());
-      }
+      const Eigen::MatrixXd right = random(m), solution = dense.solve_exactly(right, 4);
       std::vector<double> x(at(n * m)), scratch(x.size());
       for (Index v = 0; v < n; ++v) {
         for (Index q = 0; q < m; ++q) x[at(v * m + q)] = right(v, q);
@@ -124,7 +119,7 @@ TEST_F(EditedFactorTest, PathsAreThoseOfTheEditedMatrix) {
   make(40, 3);
   ASSERT_GT(change.inside.size(), 40u);
   const auto factor = hf_inner::edit_factor(base, change, memory, two);
-  const Eigen::MatrixXd inverse = exact.inverse();
+  const Eigen::MatrixXd inverse = hf_test::DenseSolver(exact).solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)));
   const Index k = 70;  // more than two groups
   std::vector<Index> start(1, 0), row;
   std::vector<double> value;
@@ -143,7 +138,7 @@ TEST_F(EditedFactorTest, PathsAreThoseOfTheEditedMatrix) {
   factor->solve_paths({{start.data(), start.size()}, {row.data(), row.size()}, {value.data(), value.size()}}, memory,
                       two, groups, {group.data(), group.size()}, {column.data(), column.size()});
   ASSERT_GT(groups.size(), 2u);
-  const Eigen::MatrixXd gram = w.transpose() * inverse * w;
+  const Eigen::MatrixXd gram = hf_test::dense_product(w, hf_test::dense_product(inverse, w), true);
   double tile[PathGroup::capacity * PathGroup::capacity];
   for (Index i = 0; i < k; ++i) {
     for (Index j = 0; j < k; ++j) {
@@ -152,7 +147,8 @@ TEST_F(EditedFactorTest, PathsAreThoseOfTheEditedMatrix) {
     }
   }
   // combine and a backward sweep: A'^-1 w, and project is its transpose
-  const Eigen::VectorXd lambda = random(1).topRows(k), field = inverse * (w * lambda);
+  const Eigen::MatrixXd lambda = random(1).topRows(k),
+                        field = hf_test::dense_product(inverse, hf_test::dense_product(w, lambda));
   std::vector<double> z(at(n), 0.0), own(PathGroup::capacity), out(PathGroup::capacity);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     std::fill(own.begin(), own.end(), 0.0);
@@ -161,7 +157,7 @@ TEST_F(EditedFactorTest, PathsAreThoseOfTheEditedMatrix) {
     }
     factor->combine(*groups[g], own.data(), 1, z.data());
   }
-  const Eigen::VectorXd products = gram * lambda;
+  const Eigen::MatrixXd products = hf_test::dense_product(gram, lambda);
   for (Index i = 0; i < k; ++i) {
     factor->project(*groups[at(group[at(i)])], z.data(), 1, out.data());
     ASSERT_NEAR(out[at(column[at(i)])], products(i), 1e-12 * products.cwiseAbs().maxCoeff());

@@ -1,16 +1,16 @@
-// The factor against dense Cholesky of Eigen and against residuals.
+// The factor against dense Cholesky and against residuals.
 #include "factor/factor.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <Eigen/Cholesky>
 #include <Eigen/Dense>
 #include <limits>
 #include <thread>
 
 #include "base/error.h"
 #include "factor/supernodal_factor.h"
+#include "support/dense.h"
 #include "unit/factor/matrices.h"
 
 namespace {
@@ -69,7 +69,8 @@ class Fixture : public testing::Test {
       ASSERT_FALSE(seen[static_cast<std::size_t>(unknown)]++);
       for (std::int32_t l = 0; l < n; ++l) permuted(k, l) = full(unknown, factor->order()[l]);
     }
-    const Eigen::MatrixXd lower = permuted.llt().matrixL();
+    Eigen::MatrixXd lower(n, n);
+    hf_test::dense_cholesky(permuted.data(), n, lower.data());
     for (const std::int32_t channels : {1, 2, 3, 4, 5, 8, 11}) {
       std::vector<double> z = random_vector(static_cast<std::size_t>(n) * channels, 3);
       Eigen::MatrixXd right(n, channels);
@@ -77,8 +78,9 @@ class Fixture : public testing::Test {
         for (std::int32_t c = 0; c < channels; ++c) right(k, c) = z[k * channels + c];
       }
       std::vector<double> w = z;
-      const Eigen::MatrixXd forward = lower.triangularView<Eigen::Lower>().solve(right);
-      const Eigen::MatrixXd backward = lower.transpose().triangularView<Eigen::Upper>().solve(right);
+      Eigen::MatrixXd forward = right, backward = right;
+      hf_test::lower_solve(lower.data(), n, false, forward.data(), channels);
+      hf_test::lower_solve(lower.data(), n, true, backward.data(), channels);
       factor->forward(z.data(), channels, one);
       factor->backward(w.data(), channels, one);
       // rounding of both: on the squared grid the two differ by 0.5 to 1.1e-12, by the order of elimination
@@ -476,7 +478,7 @@ TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
           for (const double v : z) ASSERT_EQ(v, 0.0);
         }
       }
-      const Eigen::MatrixXd s = y.transpose() * y;
+      const Eigen::MatrixXd s = hf_test::dense_product(y, y, true);
       for (std::int32_t i = 0; i < k; ++i) {
         for (std::int32_t j = 0; j < k; ++j) {
           const auto& p = *groups[static_cast<std::size_t>(group[i])];

@@ -184,22 +184,37 @@ TEST(MeanDistance, of_a_component_is_the_one_it_has_alone) {
   }
 }
 
+struct Edge {
+  std::size_t a, b;
+  double length;
+};
+
+std::vector<Edge> edges_of(const hf_inner::Core& core) {
+  std::vector<Edge> edges;
+  for (std::int32_t e = 0; e < core.topology().edge_count(); ++e) {
+    const std::size_t a = static_cast<std::size_t>(core.topology().first(e));
+    const std::size_t b = static_cast<std::size_t>(core.topology().second(e));
+    edges.push_back({a, b, norm(core.mesh.positions[a] - core.mesh.positions[b])});
+  }
+  return edges;
+}
+
 // Distance from the nearest of the sources by Bellman and Ford, over the edges.
-std::vector<double> edge_distance(const hf_inner::Core& core, const std::vector<std::int32_t>& sources) {
+std::vector<double> edge_distance(const hf_inner::Core& core, const std::vector<Edge>& edges,
+                                  const std::vector<std::int32_t>& sources) {
   std::vector<double> d(static_cast<std::size_t>(core.size()), 1e9);
   for (const std::int32_t s : sources) d[static_cast<std::size_t>(s)] = 0;
+  double* const to = d.data();
   for (bool again = true; again;) {
     again = false;
-    for (std::int32_t e = 0; e < core.topology().edge_count(); ++e) {
-      const std::size_t a = static_cast<std::size_t>(core.topology().first(e));
-      const std::size_t b = static_cast<std::size_t>(core.topology().second(e));
-      const double length = norm(core.mesh.positions[a] - core.mesh.positions[b]);
-      if (d[a] + length < d[b]) {
-        d[b] = d[a] + length;
+    for (const Edge& e : edges) {
+      const double from_a = to[e.a] + e.length, from_b = to[e.b] + e.length;
+      if (from_a < to[e.b]) {
+        to[e.b] = from_a;
         again = true;
       }
-      if (d[b] + length < d[a]) {
-        d[a] = d[b] + length;
+      if (from_b < to[e.a]) {
+        to[e.a] = from_b;
         again = true;
       }
     }
@@ -212,14 +227,15 @@ std::vector<double> edge_distance(const hf_inner::Core& core, const std::vector<
 TEST(SpreadSamples, lie_as_far_apart_as_the_surface_is_from_them_by_patches_too) {
   const PlainMesh mesh = hf_test::torus(125, 80);
   const auto core = hf_test::make_core(mesh);
+  const std::vector<Edge> edges = edges_of(*core);
   for (const std::int32_t count : {12, 30}) {
     const auto samples = hf_inner::spread_samples(core->mesh, core->topology(), core->areas, count, *core->memory);
     const std::vector<std::int32_t> chosen(samples.vertex.begin(), samples.vertex.end());
-    const std::vector<double> nearest = edge_distance(*core, chosen);
+    const std::vector<double> nearest = edge_distance(*core, edges, chosen);
     const double radius = *std::max_element(nearest.begin(), nearest.end());
     double apart = 1e9, worst_share = 0;
     std::vector<std::vector<double>> from;
-    for (const std::int32_t s : chosen) from.push_back(edge_distance(*core, {s}));
+    for (const std::int32_t s : chosen) from.push_back(edge_distance(*core, edges, {s}));
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) apart = std::min(apart, from[i][static_cast<std::size_t>(chosen[j])]);
       double share = 0, total = 0;

@@ -30,7 +30,8 @@ struct Surface {
   explicit Surface(PlainMesh given) : plain(std::move(given)), core(hf_test::make_core(plain, 1, without_factor())) {
     for (int t = 0; t < core->mesh.triangle_count(); ++t) {
       const int* v = core->mesh.triangle(t);
-      std::set<int> corners(v, v + 3);
+      std::array<int, 3> corners{v[0], v[1], v[2]};
+      std::sort(corners.begin(), corners.end());
       triangles.insert(corners);
       for (int k = 0; k < 3; ++k) edges.insert({v[k], v[(k + 1) % 3]});
     }
@@ -45,24 +46,23 @@ struct Surface {
     options.need_factor = false;
     return options;
   }
-  static std::set<int> support(const Isolines::Point& p) {
-    return p.t == 0 ? std::set<int>{p.a} : p.t == 1 ? std::set<int>{p.b} : std::set<int>{p.a, p.b};
-  }
+  // The ends of the edge that p is on; twice the vertex where it is at one.
+  static std::array<int, 2> support(const Isolines::Point& p) { return {p.t == 1 ? p.b : p.a, p.t == 0 ? p.a : p.b}; }
   // Whether a straight step from p to q stays inside one triangle.
   bool step(const Isolines::Point& p, const Isolines::Point& q) const {
-    std::set<int> both = support(p), other = support(q);
-    both.insert(other.begin(), other.end());
-    if (both.size() == 3) return triangles.count(both) > 0;
-    if (both.size() != 2) return false;
-    const int a = *both.begin(), b = *both.rbegin();
-    return edges.count({a, b}) || edges.count({b, a});
+    const auto [a, b] = support(p);
+    const auto [c, d] = support(q);
+    std::array<int, 4> all{a, b, c, d};
+    std::sort(all.begin(), all.end());
+    const auto count = std::unique(all.begin(), all.end()) - all.begin();
+    if (count == 3) return triangles.count({all[0], all[1], all[2]}) > 0;
+    return count == 2 && (edges.count({all[0], all[1]}) || edges.count({all[1], all[0]}));
   }
   bool on_border(const Isolines::Point& p) const {
-    for (const auto& e : border) {
-      const std::set<int> ends{e.first, e.second}, here = support(p);
-      if (std::includes(ends.begin(), ends.end(), here.begin(), here.end())) return true;
-    }
-    return false;
+    const auto [a, b] = support(p);
+    return std::any_of(border.begin(), border.end(), [a = a, b = b](const auto& e) {
+      return (a == e.first || a == e.second) && (b == e.first || b == e.second);
+    });
   }
   hf_inner::Vec3 place(const Isolines::Point& p) const {
     return (1 - p.t) * core->mesh.positions[static_cast<std::size_t>(p.a)] +
@@ -73,21 +73,22 @@ struct Surface {
     double sum = 0;
     for (int t = 0; t < core->mesh.triangle_count(); ++t) {
       const int* v = core->mesh.triangle(t);
-      std::vector<hf_inner::Vec3> ends;
+      hf_inner::Vec3 ends[3];
+      int count = 0;
       for (int k = 0; k < 3; ++k) {
         const std::size_t a = static_cast<std::size_t>(v[k]), b = static_cast<std::size_t>(v[(k + 1) % 3]);
         if ((u[a] >= c) == (u[b] >= c)) continue;
         const double s = (c - u[a]) / (u[b] - u[a]);
-        ends.push_back((1 - s) * core->mesh.positions[a] + s * core->mesh.positions[b]);
+        ends[count++] = (1 - s) * core->mesh.positions[a] + s * core->mesh.positions[b];
       }
-      if (ends.size() == 2) sum += norm(ends[0] - ends[1]);
+      if (count == 2) sum += norm(ends[0] - ends[1]);
     }
     return sum;
   }
 
   PlainMesh plain;
   std::shared_ptr<const hf_inner::Core> core;
-  std::set<std::set<int>> triangles;
+  std::set<std::array<int, 3>> triangles;  // corners, ascending
   std::set<std::pair<int, int>> edges, border;
 };
 
