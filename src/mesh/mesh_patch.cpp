@@ -294,10 +294,14 @@ class MeshPatcher {
     const std::size_t count = old + coming - holes.size();
     mesh.corners.reserve(3 * std::max(old, count));
     mesh.corners.assign(before_.corners.begin(), before_.corners.end());
-    mesh.triangle_of_given.reserve(given + coming);
-    mesh.triangle_of_given.assign(before_.triangle_of_given.begin(), before_.triangle_of_given.end());
+    if (coming == 0 && holes.empty()) {
+      mesh.triangle_of_given = before_.triangle_of_given;  // shared
+    } else {
+      mesh.triangle_of_given.reserve(given + coming);
+      mesh.triangle_of_given.assign(before_.triangle_of_given.begin(), before_.triangle_of_given.end());
+      mesh.triangle_of_given.resize(given + coming);
+    }
     mesh.corners.resize(3 * std::max(old, count));
-    mesh.triangle_of_given.resize(given + coming);
     for (std::size_t c = 0; !out_.number.empty() && c < 3 * old; ++c) mesh.corners[c] = number_of(mesh.corners[c]);
     for (const std::uint32_t g : patch_.removed) mesh.triangle_of_given[g] = Mesh::none;
     Vector<Mesh::Refilled> refilled(&memory_);
