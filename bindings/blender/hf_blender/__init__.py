@@ -18,7 +18,8 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import armatures, carriers, copies, operators, paint, panels, quad_operators, quads, retarget, rig, session, skinning  # noqa: E402
+from . import armatures, carriers, copies, operators, paint, paint_operators, panels, quad_operators, quads  # noqa: E402
+from . import retarget, rig, session, skinning  # noqa: E402
 from .operators import refresh  # noqa: E402
 
 
@@ -170,7 +171,7 @@ def on_load(*_):
     quads.known = None
 
 
-CLASSES = (*operators.OPERATORS, *quad_operators.CLASSES, *panels.PANELS)
+CLASSES = (*operators.OPERATORS, *paint_operators.CLASSES, *quad_operators.CLASSES, *panels.PANELS)
 CARRIERS = (bpy.types.Object, bpy.types.PoseBone)  # of handles
 HANDLERS = (("depsgraph_update_post", on_depsgraph), ("frame_change_post", on_frame), ("undo_post", on_undo),
     ("redo_post", on_undo), ("load_post", on_load))
