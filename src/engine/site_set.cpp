@@ -224,7 +224,9 @@ void SiteSet::take_core(const Core& before, const Core& core) {
   const bool same = old.given_of_inner.data() == mesh.given_of_inner.data();
   const auto number = [&](std::int32_t v, std::size_t slot) {
     if (same) return v;
-    const std::int32_t given = old.given_of_inner[at(v)], now = mesh.inner_of_given[at(given)];
+    const std::int32_t given = old.given_of_inner[at(v)];
+    // a surface from before a patch has fewer vertices
+    const std::int32_t now = at(given) < mesh.inner_of_given.size() ? mesh.inner_of_given[at(given)] : Mesh::none;
     const std::size_t site = slots_[slot].owner >= 0 ? at(slots_[slot].owner) : slot;
     if (now == Mesh::none)
       fail(HF_ERROR_CONFLICT, static_cast<std::uint32_t>(site),

@@ -383,6 +383,11 @@ static void bad_patches_are_refused_by_index_and_change_nothing(void** state) {
   assert_ok(hf_remove_sites(solver, 1, &lone));
   assert_ok(hf_solver_move_to(solver, holed));
   (void)corner;
+  hf_solver newer = solver_on(kept);
+  const uint32_t fresh = add_site(newer, TUBE_VERTICES + 1, 1);
+  check_row(__LINE__, "a site at a new vertex", "hf_solver_move_to", hf_solver_move_to(newer, scene.body),
+            HF_ERROR_CONFLICT, fresh);
+  hf_solver_destroy(newer);
   double strength[TUBE_VERTICES] = {1};
   hf_solver screened = solver_on(scene.body);
   assert_ok(hf_solver_set_screening(screened, strength, NULL));

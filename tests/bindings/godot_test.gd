@@ -92,11 +92,22 @@ func run(step, objects, kept):
 		"dispose": return [true, on.dispose(), on]
 		"edit_surface": # in place, on a surface that shares the mesh
 			var made = shares(on)
-			var result = made.edit(list(step, "vertices", kept), list(step, "stiffness", kept), list(step, "links", kept),
-				list(step, "removed_links", kept))
+			var result = null
+			if step.has("cut_edges"):
+				result = made.edit_cut(step.cut_edges)
+			elif step.has("removed_triangles"):
+				result = made.edit_patch(step.removed_triangles, list(step, "new_positions", kept), step.get("new_triangles"))
+			else:
+				result = made.edit(list(step, "vertices", kept), list(step, "stiffness", kept), list(step, "links", kept),
+					list(step, "removed_links", kept))
 			if result != null:
 				objects[step["as"]] = made
 			return [true, result, made]
+		"cuts":
+			var corners = []
+			for row in on.cuts():
+				corners += [row.triangle, row.corner, row.vertex, row.copied]
+			return [true, PackedFloat32Array(corners), on]
 		"move_to": return [true, on.move_to(objects.get(step.to)), on]
 		"add_sites": return [true, on.add_sites(list(step, "vertices", kept), list(step, "values", kept),
 			list(step, "stiffness", kept), list(step, "radii", kept), list(step, "places", kept)), on]

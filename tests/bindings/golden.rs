@@ -917,7 +917,7 @@ impl<'a> Scene<'a> {
             | "undo_weights" | "redo_weights" | "clone_weights" | "weights_info" | "joint_flags"
             | "helpers" | "skin_weights" | "transfer_weights" | "mirror" => self.weights_step(what, step),
             "update_quads" | "edit_surface" | "report" | "surface_info" | "surface_statistics"
-            | "components" | "save" | "cast_ray" | "find_vertex" | "levels" | "isolines"
+            | "components" | "cuts" | "save" | "cast_ray" | "find_vertex" | "levels" | "isolines"
             | "critical" | "extremities" | "propose" | "solver" | "geodesics" | "direction"
             | "flow" | "pose" | "region" | "quads" => self.surface_step(what, step),
             _ => panic!("unknown step {what}"),
