@@ -68,27 +68,6 @@ export default async function story(host) {
       }
     await page.click('#view-home');
   });
-  await check('the rings of a handle have their size in the first picture of a nearer eye', async () => {
-    const foot = await studio.mark('foot 1');
-    await page.mouse.click(foot.x, foot.y);
-    await studio.settle();
-    const sizes = await page.evaluate(async () => {
-      const { tools, view } = window.hfStudio;
-      const { gizmo } = tools.pose;
-      const drawn = [];
-      // as three.js has it while it draws
-      gizmo.rings[0].onBeforeRender = () => drawn.push(gizmo.group.scale.x * view.pixels(1, gizmo.centre));
-      view.zoomBy(0.5);
-      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-      gizmo.rings[0].onBeforeRender = () => {};
-      return drawn;
-    });
-    assert.ok(sizes.length && sizes.every((size) => Math.abs(size - 70) < 0.5), `pixels: ${sizes}`);
-    await page.click('#view-home');
-    await studio.settle();
-    await page.mouse.click(foot.x, foot.y); // it is left again
-    await studio.settle();
-  });
   await check('the eye stays above the floor, whatever is dragged', async () => {
     await studio.drag(...beside, 0, -400);
     assert.ok((await now()).above >= 0, `turned: ${(await now()).above}`);
@@ -136,27 +115,6 @@ export default async function story(host) {
     assert.notEqual((await now()).turn, turn);
     assert.equal(await page.evaluate(() => window.hfStudio.history.past.length), steps);
     await page.click('#view-home');
-  });
-  await check('"pull me" is read also where the body hides its place', async () => {
-    /** Whether the body lies before the mark that says it. */
-    const hidden = () =>
-      page.evaluate(() => {
-        const { skin, tools, view } = window.hfStudio;
-        const { place } = tools.pose.marks().find(({ pulse }) => pulse);
-        const { x, y } = view.onScreen(place);
-        const hit = skin.pick(view.ray(x, y));
-        return Boolean(hit) && hit.distance < Math.hypot(...place.map((p, k) => p - view.camera.position.getComponent(k))) - 0.1 * view.size;
-      });
-    for (let turn = 0; turn < 6.2 && !(await hidden()); turn += 0.2) {
-      await page.evaluate((turn) => (Object.assign(window.hfStudio.view, { turn }), window.hfStudio.view.draw()), turn);
-      await studio.settle();
-    }
-    assert.ok(await hidden(), 'the body hides it from some side');
-    await page.waitForTimeout(400);
-    const { classes } = (await studio.marks()).find((mark) => mark.classes.includes('pulse'));
-    assert.ok(!classes.includes('behind'), classes);
-    await page.click('#view-home');
-    await studio.settle();
   });
   await check('a second finger, or a pointer that the system takes, gives up what was pulled: no step, and the body goes back', async () => {
     await page.click('#view-home');
@@ -258,6 +216,48 @@ export default async function story(host) {
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();
 
+  await check('the rings of a handle have their size in the first picture of a nearer eye', async () => {
+    const studio = await Studio.open(host);
+    const { page } = studio;
+    const foot = await studio.mark('foot 1');
+    await page.mouse.click(foot.x, foot.y);
+    await studio.settle();
+    const sizes = await page.evaluate(async () => {
+      const { tools, view } = window.hfStudio;
+      const { gizmo } = tools.pose;
+      const drawn = [];
+      // as three.js has it while it draws
+      gizmo.rings[0].onBeforeRender = () => drawn.push(gizmo.group.scale.x * view.pixels(1, gizmo.centre));
+      view.zoomBy(0.5);
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      gizmo.rings[0].onBeforeRender = () => {};
+      return drawn;
+    });
+    assert.ok(sizes.length && sizes.every((size) => Math.abs(size - 70) < 0.5), `pixels: ${sizes}`);
+    await studio.close();
+  });
+  await check('"pull me" is read also where the body hides its place', async () => {
+    const studio = await Studio.open(host);
+    const { page } = studio;
+    /** Whether the body lies before the mark that says it. */
+    const hidden = () =>
+      page.evaluate(() => {
+        const { skin, tools, view } = window.hfStudio;
+        const { place } = tools.pose.marks().find(({ pulse }) => pulse);
+        const { x, y } = view.onScreen(place);
+        const hit = skin.pick(view.ray(x, y));
+        return Boolean(hit) && hit.distance < Math.hypot(...place.map((p, k) => p - view.camera.position.getComponent(k))) - 0.1 * view.size;
+      });
+    for (let turn = 0; turn < 6.2 && !(await hidden()); turn += 0.2) {
+      await page.evaluate((turn) => (Object.assign(window.hfStudio.view, { turn }), window.hfStudio.view.draw()), turn);
+      await studio.settle();
+    }
+    assert.ok(await hidden(), 'the body hides it from some side');
+    await page.waitForTimeout(400);
+    const { classes } = (await studio.marks()).find((mark) => mark.classes.includes('pulse'));
+    assert.ok(!classes.includes('behind'), classes);
+    await studio.close();
+  });
   await check('the "pull me" of a body that walks waits for the pointer, and goes on when it leaves', async () => {
     const moving = await Studio.open(host, { reducedMotion: 'no-preference' });
     try {
