@@ -105,16 +105,3 @@ hf_install_locked() {
 
 # The npm packages of the tests: koffi, three.js, playwright-core, axe-core and the Khronos glTF validator.
 hf_install_node_modules() { hf_install_locked "$hf_root/tests/npm" "$hf_root/build/npm"; }
-
-# hf_install_bpy: Blender as a Python module in build/bpy (0.9 GB), for a Python that it has wheels for; prints that Python.
-hf_install_bpy() {
-  local list="$hf_root/tests/bindings/requirements-bpy.txt" folder="$hf_root/build/bpy"
-  if ! cmp -s "$list" "$folder/installed.txt"; then
-    command -v python3.11 >/dev/null 2>&1 || return 1
-    rm -rf "$folder"
-    mkdir -p "$folder"
-    { python3.11 -m venv "$folder" && "$folder/bin/python" -m pip install -q -r "$list"; } >"$folder/pip.log" 2>&1 || return 1
-    cp "$list" "$folder/installed.txt"
-  fi
-  echo "$folder/bin/python"
-}

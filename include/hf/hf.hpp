@@ -2168,11 +2168,11 @@ class Pose {
 
   // Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
   // Pose.deform goes on from the pose as it stands, with the new stiffness and links. So a faint stroke moves next to
-  // nothing, also where handles of free rotation could rest in two poses. With restart the frame is that of a new pose
-  // on `surface`, to 1e-6 of the box.
+  // nothing, also where handles of free rotation could rest in two poses. With restart the frame equals the frame of a
+  // new pose on `surface`, to 1e-6 of the box.
   //
-  // surface: made by Surface::edit or Surface::relink from the pose's surface, or the other way round, in any number of
-  // steps.
+  // surface: any number of calls of Surface::edit or Surface::relink make it from the pose's surface, or the pose's
+  // surface from it.
   //
   // Fails with HF_ERROR_CONFLICT.
   void move_to(const Surface& surface) {

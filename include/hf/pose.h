@@ -45,10 +45,11 @@ HF_API hf_result hf_pose_clone(hf_pose pose, hf_pose* out_pose);
 
 /* Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
  * hf_deform goes on from the pose as it stands, with the new stiffness and links. So a faint stroke moves next to
- * nothing, also where handles of free rotation could rest in two poses. With restart the frame is that of a new pose on
- * `surface`, to 1e-6 of the box. surface: made by hf_surface_edit or hf_surface_relink from the pose's surface, or the
- * other way round, in any number of steps. Cost: as adding all handles at once, without elimination paths. Errors:
- * HF_ERROR_CONFLICT (the surfaces have no common origin). Thread safety: changes `pose`, reads `surface`. Since 0.1. */
+ * nothing, also where handles of free rotation could rest in two poses. With restart the frame equals the frame of a
+ * new pose on `surface`, to 1e-6 of the box. surface: any number of calls of hf_surface_edit or hf_surface_relink make
+ * it from the pose's surface, or the pose's surface from it. Cost: as adding all handles at once, without elimination
+ * paths. Errors: HF_ERROR_CONFLICT (the surfaces have no common origin). Thread safety: changes `pose`, reads
+ * `surface`. Since 0.1. */
 HF_API hf_result hf_pose_move_to(hf_pose pose, hf_surface surface);
 
 /* Destroys a pose. Ignores NULL and destroyed objects. Since 0.1. */

@@ -354,8 +354,8 @@ void ConstraintEdit::project_pins(std::size_t first_group) {
   });
 }
 
-// Where the rows of the known sites are in their dense blocks, by slot. Empty where the products of known paths are not
-// those of the factor that all edits share: that factor is edited itself, or some sites are soft.
+// Where the rows of the known sites are in their dense blocks, by slot. Empty where the products of known paths are
+// not products of the factor that all edits share: that factor is edited itself, or some sites are soft.
 Vector<Index> ConstraintEdit::known_places() const {
   Vector<Index> place(&memory());
   if (taken_end_ == taken_first_ || known_.state->base || &known_.factor->path_base() != known_.factor.get())

@@ -61,7 +61,7 @@ class ConstraintEdit {
   ConstraintState& state_;
   const KnownPaths& known_;
   bool last_;
-  std::size_t taken_first_ = 0, taken_end_ = 0;  // the groups whose paths are those of `known`
+  std::size_t taken_first_ = 0, taken_end_ = 0;  // the groups whose paths `known` has too
   std::uint32_t path_solves_ = 0, factorisations_ = 0;
 };
 

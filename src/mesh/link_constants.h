@@ -35,9 +35,9 @@ constexpr double rigid_weight = 1000;
 // many steps apart. 1 leaves out the back of an arm, beside the joint below the chest: kk_Knight opens by 3.4 % of the
 // box. Double reaches a thigh that a hand touches.
 constexpr Index joint_steps = 2;
-// Such links are so much stiffer: trades closed joints for pieces that bend with them. Wrists and the head of kk_Knight
-// that are pulled by 17 % of the box open it by 1.7, 1.4 and 5.2 %; half 2.2, 1.8, 5.9; double 1.5, 1.0, 4.6, and the
-// left hand of q_CyberCharacter opens by 0.74 instead of 0.54 %.
+// Such links are so much stiffer: trades closed joints for pieces that bend with them. The head of kk_Knight
+// that is pulled by 17 % of the box opens it by 5.2 %, with half by 5.9. With double it is 4.6, and the left hand of
+// q_CyberCharacter opens by 0.74 instead of 0.54 %.
 constexpr double joint_stiffness = 4;
 // The depth of contacts between such pieces. Half: gap .069 / .34, entries 1.177. Double: .067 / .32, 1.192, false
 // 0.9 %.

@@ -415,7 +415,7 @@ void LinkSearch::link_hinge(Vector<Contact>* sides, bool in_tree) {
 // the candidates is a contact, so that a pair of the tree always gets a link.
 void LinkSearch::link_pair(const Pair& pair) {
   Vector<Contact> sides[2] = {Vector<Contact>(&memory_), Vector<Contact>(&memory_)};
-  // What the skeleton knows as a joint holds all around: one point would draw a neck out to a spike.
+  // A joint of the skeleton holds all around: one point would draw a neck out to a spike.
   const bool joint = pair.steps == 1, hinge = !joint && pair.unlike() > skin_difference * skin_distance;
   const double depth = hinge ? hinge_depth : contact_depth;
   const auto is_far = [&](const Contact& contact) {

@@ -11,7 +11,7 @@
 namespace bench {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double half_turn = 3.14159265358979323846;
 constexpr uint32_t dab = 30, handle_count = 8;
 
 // Eight handles: discs round the outer equator of the torus, proposed ones on the creature.
@@ -20,7 +20,7 @@ hf_pose pose_on(const Mesh& mesh, hf_surface surface, Family family) {
   uint32_t count = handle_count;
   if (family == Family::torus) {
     for (uint32_t i = 0; i < count; ++i) {
-      const double turn = 2 * pi * i / count;
+      const double turn = 2 * half_turn * i / count;
       points[i][0] = 1.4 * std::cos(turn);
       points[i][1] = 0;
       points[i][2] = 1.4 * std::sin(turn);

@@ -15,7 +15,7 @@ unset PYTHONPATH PYTHONHOME HF_LIBRARY
 blender=${HF_BLENDER:-blender}
 module=${HF_BPY:-python3}
 if [ "$form" = module ]; then
-  "$module" -c "import bpy" 2>/dev/null || { echo "skipped: no Blender as a Python module here (pip install bpy; HF_BPY=its python)"; exit 77; }
+  "$module" -c "import bpy" 2>/dev/null || { echo "skipped: no Blender as a Python module here (package bpy; HF_BPY=its python)"; exit 77; }
 else
   command -v "$blender" >/dev/null || { echo "skipped: no Blender here (Debian: blender)"; exit 77; }
 fi

@@ -4323,10 +4323,10 @@ namespace Hf
         /// <summary>Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The
         /// next Pose.Deform goes on from the pose as it stands, with the new stiffness and links. So a faint stroke
         /// moves next to nothing, also where handles of free rotation could rest in two poses. With restart the
-        /// frame is that of a new pose on `surface`, to 1e-6 of the box.
+        /// frame equals the frame of a new pose on `surface`, to 1e-6 of the box.
         ///
-        /// surface: made by Surface.Edit or Surface.Relink from the pose's surface, or the other way round, in any
-        ///     number of steps.
+        /// surface: any number of calls of Surface.Edit or Surface.Relink make it from the pose's surface, or the
+        ///     pose's surface from it.
         ///
         /// Throws HF_ERROR_CONFLICT.</summary>
         public void MoveTo(Surface surface)
