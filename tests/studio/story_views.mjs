@@ -81,6 +81,7 @@ export default async function story(host) {
     await page.click('#view-home');
   });
   await check('a drag that begins on the body beside a mark pulls the mark, and the view stays', async () => {
+    await studio.settle(); // the view has come home
     const mark = await studio.mark('pull me');
     const near = (await studio.spots(6)).find(([x, y]) => {
       const away = Math.hypot(x - mark.x, y - mark.y);
