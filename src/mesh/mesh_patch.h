@@ -6,6 +6,7 @@
 // others keep theirs, unless more vertices go than come. The frame (centre and scale) stays, so the numbers of the rest
 // keep their bits.
 #pragma once
+#include "base/index.h"
 #include "mesh/topology.h"
 
 namespace hf_inner {
