@@ -197,22 +197,13 @@ void add_products(const double* x, std::int32_t stride, std::int32_t used, const
   }
 }
 
-// Calls use(std::integral_constant<std::int32_t, m>) for m = channels, 2 to 8. Returns false for others.
+// Calls use(std::integral_constant<std::int32_t, m>) for m = channels, the three of a place and the eight of a block.
+// Returns false for others.
 template <class Use>
 bool with_channels(std::int32_t channels, Use&& use) {
   switch (channels) {
-    case 2:
-      return use(std::integral_constant<std::int32_t, 2>()), true;
     case 3:
       return use(std::integral_constant<std::int32_t, 3>()), true;
-    case 4:
-      return use(std::integral_constant<std::int32_t, 4>()), true;
-    case 5:
-      return use(std::integral_constant<std::int32_t, 5>()), true;
-    case 6:
-      return use(std::integral_constant<std::int32_t, 6>()), true;
-    case 7:
-      return use(std::integral_constant<std::int32_t, 7>()), true;
     case 8:
       return use(std::integral_constant<std::int32_t, 8>()), true;
     default:
