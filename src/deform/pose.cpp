@@ -90,7 +90,9 @@ std::shared_ptr<Pose> Pose::on(std::shared_ptr<const Core> core, std::shared_ptr
         {handle.number, relinked ? make_region(*core, region->vertices, options_.rim_site_count, memory()) : region});
   }
   std::shared_ptr<const Layout> layout = moved->make_layout_on(handles, *layout_, *core_);
+  if (state_->without) moved->brought_ = state_->without->on(core, moved->rest_);
   std::shared_ptr<State> state = moved->carry_over(*layout);
+  moved->brought_.reset();
   // The groups keep their stresses too: without them a stroke that changes nothing moves the next frame.
   if (layout->smooth && layout->smooth->subspace.group == layout_->smooth->subspace.group && !relinked)
     state->smooth.stress = state_->smooth.stress;

@@ -274,6 +274,7 @@ class Pose {
   std::shared_ptr<State> state_;
   std::shared_ptr<const Layout> previous_layout_;  // layout before the last handles were added
   std::shared_ptr<const State> previous_state_;
+  std::shared_ptr<Pose> brought_;  // during a move to another core: the pose without the handles that are held back
   mutable Buffer<Vec3> positions_;
   std::shared_ptr<const RigidPieces> rigid_;
   mutable Buffer<Vec3> rigid_scratch_;

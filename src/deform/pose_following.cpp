@@ -52,10 +52,8 @@ void Pose::prepare_holds(const Layout& layout, State& state) const {
   state.smooth.held.fit(holds->count());
   state.smooth.holds = std::move(holds);
   if (vertices.empty()) return;
-  if (state_ && state_->without && &state_->without->core() != core_.get() &&
-      state_->without->handle_count() + 1 == start.size()) {
-    // the pose goes to another core with its handles, and this one with it
-    state.without = state_->without->on(core_, rest_);
+  if (brought_ && brought_->handle_count() + 1 == start.size()) {
+    state.without = brought_;
     return;
   }
   std::shared_ptr<Pose> without = without_handles();

@@ -40,6 +40,20 @@ void count_given(Geometry& shape) {
   }
 }
 
+MeshReport count_patched(const Geometry& shape) {
+  const Mesh& mesh = shape.mesh;
+  Memory& memory = *shape.memory;
+  const Topology& edges = shape.topology();
+  MeshReport counted = mesh.report;
+  counted.degenerate_triangle_count = 0;
+  measure_triangles(mesh, counted, shape.jobs.get(), memory);
+  count_edges(edges, counted);
+  counted.negative_edge_count =
+      count_negative(edge_weights(mesh, edges, OperatorKind::cotangent, memory, shape.jobs.get()));
+  count_inside_out(mesh, counted, memory);
+  return counted;
+}
+
 }  // namespace
 
 Geometry::Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> runner)
@@ -55,17 +69,11 @@ Geometry::Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> run
       edges_(*memory) {}
 
 const MeshReport& Geometry::mesh_report() const {
-  if (!unlinked().is_patched) return mesh.report;
+  if (!count_report) return mesh.report;
   if (report_made_.load(std::memory_order_acquire)) return report_;
-  const Topology& edges = topology();
+  const MeshReport counted = count_report(*this);
   const std::lock_guard<std::mutex> lock(edges_guard_);
   if (report_made_.load(std::memory_order_relaxed)) return report_;
-  MeshReport counted = mesh.report;
-  counted.degenerate_triangle_count = 0;
-  measure_triangles(mesh, counted, jobs.get(), *memory);
-  count_edges(edges, counted);
-  counted.negative_edge_count = count_negative(edge_weights(mesh, edges, OperatorKind::cotangent, *memory, jobs.get()));
-  count_inside_out(mesh, counted, *memory);
   report_ = counted;
   report_made_.store(true, std::memory_order_release);
   return report_;
@@ -141,6 +149,7 @@ std::shared_ptr<const Geometry> Geometry::linked(std::shared_ptr<const Geometry>
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(plain->memory, plain->memory, plain->jobs);
   shape->operator_kind = plain->operator_kind;
   shape->family = plain->family;
+  shape->count_report = plain->count_report;
   shape->mesh = linked_mesh(plain->mesh, *links, pool);
   shape->areas = plain->areas;
   count_given(*shape);
@@ -158,6 +167,7 @@ std::shared_ptr<const Geometry> Geometry::relinked(std::shared_ptr<const Geometr
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(from->memory, from->memory, from->jobs);
   shape->operator_kind = from->operator_kind;
   shape->family = from->family;
+  shape->count_report = from->count_report;
   shape->areas = from->areas;
   shape->plain = from->plain ? from->plain : from;
   const auto groups_of = [](const Geometry& geometry, const Links& of) {
@@ -189,6 +199,7 @@ std::shared_ptr<const Geometry> Geometry::patched(std::shared_ptr<const Geometry
   shape->operator_kind = from->operator_kind;
   shape->family = from->family;
   shape->is_patched = true;
+  shape->count_report = &count_patched;
   const std::size_t count = made.mesh.positions.size();
   shape->areas.reserve(count);
   shape->areas.assign(from->areas.begin(), from->areas.end());
@@ -218,6 +229,7 @@ std::shared_ptr<const Geometry> Geometry::moved(const Geometry& from, Span<const
   shape->operator_kind = from.operator_kind;
   shape->family = from.family;
   shape->is_patched = from.is_patched;
+  shape->count_report = from.count_report;
   shape->edges_.topology = from.topology();
   shape->edges_.weights = from.weights();
   shape->edges_made_ = true;

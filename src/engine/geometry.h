@@ -78,6 +78,8 @@ struct Geometry {
   std::shared_ptr<const Links> links;     // null: no links
   std::shared_ptr<const char> family;     // one for all that is made of one mesh
   bool is_patched = false;
+  // Counts the report of a patched mesh; null for others: a program that patches nothing links nothing of it.
+  MeshReport (*count_report)(const Geometry&) = nullptr;
   double weld_ms = 0, weights_ms = 0, links_ms = 0;
   mutable WorkspacePool workspaces;
   mutable WorkspacePool zeroed_workspaces;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core_difference.h"
-
 namespace hf_inner {
 namespace {
 
@@ -31,15 +29,11 @@ GreenSolver::GreenSolver(std::shared_ptr<const Core> core, double crowded)
 GreenSolver::GreenSolver(const GreenSolver& other)
     : core_(other.core_), system_(other.system_), crowded_(other.crowded_), cloned_at_(other.system_.counts()) {}
 
-std::shared_ptr<SiteSolver> GreenSolver::on(std::shared_ptr<const Core> core) const {
+std::shared_ptr<SiteSolver> GreenSolver::on(std::shared_ptr<const Core> core,
+                                            std::shared_ptr<const VertexMap> map) const {
   if (core->root) return make(std::move(core));
   const auto made = make_owner_in<GreenSolver>(core->memory, core);
-  if (state().base || state().groups.empty()) return made;
-  KnownPaths known{system_.snapshot(), core_->factor, nullptr};
-  if (!Unknowns::are_same(*core_, *core)) {
-    known.map = make_shared_in<VertexMap>(*core->memory, core_->mesh, core->mesh, *core->memory);
-  }
-  made->system_.know(std::move(known));
+  if (!state().base && !state().groups.empty()) made->system_.know({system_.snapshot(), core_->factor, std::move(map)});
   return made;
 }
 

@@ -23,7 +23,7 @@ class GreenSolver final : public SiteSolver {
                      PreviewInfo& info) const override;
   bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
                double* flux_change) const override;
-  std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core) const override;
+  std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core, std::shared_ptr<const VertexMap> map) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<GreenSolver>(core_->memory, *this); }
   void respond(const double* load, const double* values, std::int32_t channels, double* field,
                double* flux) const override;

@@ -38,7 +38,9 @@ class MixedSolver final : public SiteSolver {
                 double* out) const override;
   bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
                double* flux_change) const override;
-  std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core) const override { return make(std::move(core)); }
+  std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core, std::shared_ptr<const VertexMap>) const override {
+    return make(std::move(core));
+  }
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<MixedSolver>(core_->memory, *this); }
   void rebase(JobRunner& jobs) override { inner_.rebase(jobs); }
   void succeed(const SiteSolver& predecessor) noexcept override {

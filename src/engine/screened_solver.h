@@ -41,7 +41,9 @@ class ScreenedSolver final : public SiteSolver {
                 double* out) const override;
   bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
                double* flux_change) const override;
-  std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core) const override { return make(std::move(core)); }
+  std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core, std::shared_ptr<const VertexMap>) const override {
+    return make(std::move(core));
+  }
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<ScreenedSolver>(core().memory, *this); }
   void rebase(JobRunner& jobs) override { system_.rebase(jobs); }
   bool takes_screening() const noexcept override { return true; }

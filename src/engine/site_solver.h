@@ -15,6 +15,8 @@
 
 namespace hf_inner {
 
+class VertexMap;
+
 // Channels of one field; hf/solver.h states it. The rows of writers have this width.
 constexpr std::uint32_t most_channels = 64;
 
@@ -99,9 +101,11 @@ class SiteSolver {
   virtual void respond(const double* load, const double* values, std::int32_t channels, double* field,
                        double* flux) const;
 
-  // Returns an engine of hosts without sites on another core, for one of hosts; null for baselines.
-  virtual std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core) const {
-    (void)core;
+  // Returns an engine of hosts without sites on another core, for one of hosts; null for baselines. map: from the
+  // vertices of its core to those of the other; null: they are the same.
+  virtual std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core,
+                                         std::shared_ptr<const VertexMap> map = nullptr) const {
+    (void)core, (void)map;
     return nullptr;
   }
   // Returns a copy that shares all immutable parts.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "engine/vertex_map.h"
 
 namespace hf_inner {
 namespace {
@@ -132,11 +133,14 @@ void ScalarField::take_engine(std::shared_ptr<SiteSolver> engine) {
 
 void ScalarField::move_to(std::shared_ptr<const Core> core) {
   const std::lock_guard<std::mutex> lock(guard_);
-  std::shared_ptr<SiteSolver> engine = engine_->on(core);
+  std::shared_ptr<const VertexMap> map;
+  if (core->mesh.given_of_inner.data() != core_->mesh.given_of_inner.data())
+    map = make_shared_in<VertexMap>(memory(), core_->mesh, core->mesh, memory());
+  std::shared_ptr<SiteSolver> engine = engine_->on(core, map);
   if (!engine)
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a baseline stays on its surface; make the solver with hf_create");
   std::shared_ptr<const Screening> screening;
-  if (screening_ && core->mesh.given_of_inner.data() != core_->mesh.given_of_inner.data())
+  if (screening_ && map)
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
          "the solver is screened, and the surface has other triangles: take the screening off, move, and set it again");
   if (screening_) {
