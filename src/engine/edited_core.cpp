@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/differences.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "engine/core_difference.h"
@@ -28,10 +29,9 @@ PieceDiagonals patched_pieces(const Core& plain, const PatchRows& patch, const M
   bool same = patch.map.keeps_numbers() && old.component_count() == mesh.component_count();
   if (same) {
     const Index both = std::min(old.vertex_count(), mesh.vertex_count());
-    const Index *const a = old.component.data(), *const b = mesh.component.data();
     std::size_t others = 0;
-    for (std::size_t v = 0; v < at(both); ++v) others += a[v] != b[v];
-    for (const Index v : patch.map.fresh()) others -= v < both && a[v] != b[v];
+    for_differences(old.component.data(), mesh.component.data(), at(both), [&](std::size_t) { ++others; });
+    for (const Index v : patch.map.fresh()) others -= v < both && old.component[at(v)] != mesh.component[at(v)];
     same = others == 0;
   }
   if (!same) {

@@ -195,7 +195,7 @@ std::shared_ptr<const Geometry> Geometry::patched(std::shared_ptr<const Geometry
   if (from->plain) from = from->plain;
   Timer timer;
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(from->memory, from->memory, from->jobs);
-  PatchedMesh made = patched_mesh(from->mesh, from->known_topology(), patch, *shape->memory);
+  PatchedMesh made = patched_mesh(from->mesh, from->known_topology(), patch, *shape->memory, shape->jobs.get());
   shape->operator_kind = from->operator_kind;
   shape->family = from->family;
   shape->is_patched = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/differences.h"
 #include "base/index.h"
 #include "base/progress.h"
 #include "mesh/delaunay_patches.h"
@@ -58,16 +59,15 @@ class Neighbourhood {
   void find_changes() {
     const auto &before = plain_.mesh.triangle_of_given, &now = after_.mesh.triangle_of_given;
     Vector<Index>& touched = touched_;
-    for (std::size_t g = 0; g < now.size(); ++g) {
+    const auto take = [&](std::size_t g) {
       const Index t = g < before.size() ? before[g] : Mesh::none;
-      if ((t == Mesh::none) == (now[g] == Mesh::none)) continue;
-      if (t != Mesh::none) {
-        gone_.push_back(t);
-        touched.insert(touched.end(), plain_.mesh.triangle(t), plain_.mesh.triangle(t) + 3);
-        continue;
-      }
-      take_added(now[g]);
-    }
+      if ((t == Mesh::none) == (now[g] == Mesh::none)) return;
+      if (t == Mesh::none) return take_added(now[g]);
+      gone_.push_back(t);
+      touched.insert(touched.end(), plain_.mesh.triangle(t), plain_.mesh.triangle(t) + 3);
+    };
+    for_differences(before.data(), now.data(), std::min(before.size(), now.size()), take);
+    for (std::size_t g = before.size(); g < now.size(); ++g) take(g);
     for (std::size_t i = plain_.mesh.cuts.size(); i < after_.mesh.cuts.size(); ++i) {
       const std::size_t g = at(after_.mesh.cuts[i].triangle);
       if (g >= before.size() || before[g] == Mesh::none || now[g] == Mesh::none) continue;

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 
+#include "base/differences.h"
 #include "base/index.h"
 #include "mesh/mesh.h"
 
@@ -19,9 +20,8 @@ class VertexMap {
         fresh_(&memory) {
     if (keeps_numbers_) {
       const std::size_t both = std::min(before_.size(), after_.size());
-      const Index *const old = before_.data(), *const now = after_.data();
-      for (std::size_t v = 0; v < both; ++v)
-        if (old[v] != now[v]) went_.push_back(static_cast<Index>(v));
+      for_differences(before_.data(), after_.data(), both,
+                      [&](std::size_t v) { went_.push_back(static_cast<Index>(v)); });
       fresh_.assign(went_.begin(), went_.end());
       for (std::size_t v = both; v < before_.size(); ++v) went_.push_back(static_cast<Index>(v));
       for (std::size_t v = both; v < after_.size(); ++v) fresh_.push_back(static_cast<Index>(v));

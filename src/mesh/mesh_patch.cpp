@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "mesh/places.h"
-#include "mesh/union_find.h"
 
 namespace hf_inner {
 namespace {
@@ -24,9 +23,10 @@ struct Corners {
 
 class MeshPatcher {
  public:
-  MeshPatcher(const Mesh& before, const Topology* topology, const MeshPatch& patch, Memory& memory)
+  MeshPatcher(const Mesh& before, const Topology* topology, const MeshPatch& patch, Memory& memory, JobRunner* jobs)
       : before_(before),
         topology_(topology),
+        jobs_(jobs),
         patch_(patch),
         memory_(memory),
         out_(memory),
@@ -53,7 +53,7 @@ class MeshPatcher {
     refuse_doubled();
     put_vertices();
     put_triangles();
-    find_components();
+    put_components(before_, slots_, out_, memory_);
     count();
     return std::move(out_);
   }
@@ -91,6 +91,7 @@ class MeshPatcher {
       if (gone_[at(t)])
         fail(HF_ERROR_CONFLICT, i, "entry %u of removed_triangles: triangle %u is listed twice", i, given);
       gone_[at(t)] = 1;
+      ++removed_;
     }
   }
 
@@ -209,32 +210,42 @@ class MeshPatcher {
   // The number of a vertex that stays.
   Index number_of(Index v) const noexcept { return out_.number.empty() ? v : out_.number[at(v)]; }
 
+  // Copies the large arrays beside one another, with room for what comes.
+  void copy_arrays() {
+    Mesh& mesh = out_.mesh;
+    const auto copy = [](const auto& from, std::size_t size, auto& to) {
+      to.reserve(std::max(size, from.size()));
+      to.assign(from.begin(), from.end());
+      to.resize(size);
+    };
+    const std::size_t vertices = before_.positions.size() - out_.went.size() + slots_.size();
+    const std::size_t given = before_.inner_of_given.size() + patch_.positions.size() + copies_.size();
+    const std::size_t triangles =
+        std::max(before_.corners.size(), before_.corners.size() + added_.size() - 3 * removed_);
+    for_each(jobs_, 5, [&](std::uint32_t i) {
+      if (i == 0) copy(before_.corners, triangles, mesh.corners);
+      if (i == 1) copy(before_.positions, vertices, mesh.positions);
+      if (i == 2) copy(before_.inner_of_given, given, mesh.inner_of_given);
+      if (i == 3) copy(before_.given_of_inner, vertices, mesh.given_of_inner);
+      if (i == 4 && (removed_ > 0 || !added_.empty()))
+        copy(before_.triangle_of_given, before_.triangle_of_given.size() + added_.size() / 3, mesh.triangle_of_given);
+    });
+    if (removed_ == 0 && added_.empty()) mesh.triangle_of_given = before_.triangle_of_given;  // shared
+  }
+
   void put_vertices() {
     Mesh& mesh = out_.mesh;
     mesh.report = before_.report;
     mesh.centre = before_.centre;
     mesh.scale = before_.scale;
     mesh.numbering = out_.number.empty() ? before_.numbering : make_shared_in<char>(memory_, '\0');
-    const std::size_t coming = slots_.size(), going = out_.went.size();
-    const std::size_t count = before_.positions.size() - going + coming;
-    if (out_.number.empty()) {
-      mesh.positions.reserve(count);
-      mesh.positions.assign(before_.positions.begin(), before_.positions.end());
-      mesh.given_of_inner.reserve(count);
-      mesh.given_of_inner.assign(before_.given_of_inner.begin(), before_.given_of_inner.end());
-    }
-    mesh.positions.resize(count);
-    mesh.given_of_inner.resize(count);
+    copy_arrays();
     for (std::size_t v = 0; v < out_.number.size(); ++v) {
       const Index to = out_.number[v];
       if (to == Mesh::none) continue;
       mesh.positions[at(to)] = before_.positions[v];
       mesh.given_of_inner[at(to)] = before_.given_of_inner[v];
     }
-    const std::size_t old = before_.report.vertex_count;
-    mesh.inner_of_given.reserve(old + patch_.positions.size() + copies_.size());
-    mesh.inner_of_given.assign(before_.inner_of_given.begin(), before_.inner_of_given.end());
-    mesh.inner_of_given.resize(old + patch_.positions.size() + copies_.size());
     put_isolated();
     for (std::size_t i = 0; i < copies_.size(); ++i) {
       const Index v = slots_[given_.size() + i];
@@ -292,16 +303,6 @@ class MeshPatcher {
     if (old + coming == holes.size())
       fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the edit removes every triangle; nothing is left of the surface");
     const std::size_t count = old + coming - holes.size();
-    mesh.corners.reserve(3 * std::max(old, count));
-    mesh.corners.assign(before_.corners.begin(), before_.corners.end());
-    if (coming == 0 && holes.empty()) {
-      mesh.triangle_of_given = before_.triangle_of_given;  // shared
-    } else {
-      mesh.triangle_of_given.reserve(given + coming);
-      mesh.triangle_of_given.assign(before_.triangle_of_given.begin(), before_.triangle_of_given.end());
-      mesh.triangle_of_given.resize(given + coming);
-    }
-    mesh.corners.resize(3 * std::max(old, count));
     for (std::size_t c = 0; !out_.number.empty() && c < 3 * old; ++c) mesh.corners[c] = number_of(mesh.corners[c]);
     for (const std::uint32_t g : patch_.removed) mesh.triangle_of_given[g] = Mesh::none;
     Vector<Mesh::Refilled> refilled(&memory_);
@@ -378,73 +379,6 @@ class MeshPatcher {
     }
   }
 
-  // Components stay if the triangles around the patch join the same components as before.
-  void find_components() {
-    Mesh& mesh = out_.mesh;
-    Vector<Index> near(&memory_);  // the vertices of these triangles
-    for (const Index t : out_.around) near.insert(near.end(), mesh.triangle(t), mesh.triangle(t) + 3);
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    const auto local = [&](Index v) {
-      return static_cast<Index>(std::lower_bound(near.begin(), near.end(), v) - near.begin());
-    };
-    UnionFind sets(near.size(), memory_);
-    for (const Index t : out_.around) {
-      const Index* const v = mesh.triangle(t);
-      sets.unite(local(v[0]), local(v[1]));
-      sets.unite(local(v[1]), local(v[2]));
-    }
-    Vector<Index> old(near.size(), Mesh::none, &memory_);  // the component before; none for a new vertex
-    Vector<Index> slots(slots_.begin(), slots_.end(), &memory_);
-    std::sort(slots.begin(), slots.end());
-    Vector<Index> before(&memory_);  // by number now, where numbers changed
-    for (std::size_t v = 0; v < out_.number.size(); ++v)
-      if (out_.number[v] != Mesh::none) before.push_back(static_cast<Index>(v));
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      if (std::binary_search(slots.begin(), slots.end(), near[i])) continue;
-      old[i] = before_.component[at(out_.number.empty() ? near[i] : before[at(near[i])])];
-    }
-    Vector<Index> set_of(at(before_.component_count()), Mesh::none, &memory_),
-        of_set(near.size(), Mesh::none, &memory_);
-    bool same = true;
-    for (std::size_t v = 0; v < near.size(); ++v) {
-      if (old[v] == Mesh::none) continue;
-      const Index set = sets.find(static_cast<Index>(v));
-      Index &there = set_of[at(old[v])], &here = of_set[at(set)];
-      if (there == Mesh::none) there = set;
-      if (here == Mesh::none) here = old[v];
-      same = same && there == set && here == old[v];
-    }
-    for (std::size_t v = 0; v < near.size(); ++v)
-      same = same && of_set[at(sets.find(static_cast<Index>(v)))] != Mesh::none;
-    for (const Index v : out_.went) same = same && set_of[at(before_.component[at(v)])] != Mesh::none;
-    out_.same_components = same;
-    if (!same) return count_components();
-    mesh.component.reserve(mesh.positions.size());
-    mesh.component.assign(before_.component.begin(), before_.component.end());
-    for (std::size_t v = 0; v < before.size(); ++v) mesh.component[v] = before_.component[at(before[v])];
-    mesh.component.resize(mesh.positions.size());
-    for (const Index v : slots_) mesh.component[at(v)] = of_set[at(sets.find(local(v)))];
-  }
-
-  // Components are numbered by the first of the caller's vertices in them.
-  void count_components() {
-    Mesh& mesh = out_.mesh;
-    UnionFind sets(mesh.positions.size(), memory_);
-    for (Index t = 0; t < mesh.triangle_count(); ++t) {
-      sets.unite(mesh.triangle(t)[0], mesh.triangle(t)[1]);
-      sets.unite(mesh.triangle(t)[1], mesh.triangle(t)[2]);
-    }
-    mesh.component.assign(mesh.positions.size(), Mesh::none);
-    mesh.report.component_count = 0;
-    for (const Index v : mesh.inner_of_given) {
-      if (v == Mesh::none || mesh.component[at(v)] != Mesh::none) continue;
-      Index& of_root = mesh.component[at(sets.find(v))];
-      if (of_root == Mesh::none) of_root = static_cast<Index>(mesh.report.component_count++);
-      mesh.component[at(v)] = of_root;
-    }
-  }
-
   void count() {
     Mesh& mesh = out_.mesh;
     MeshReport& report = mesh.report;
@@ -459,6 +393,7 @@ class MeshPatcher {
 
   const Mesh& before_;
   const Topology* topology_;
+  JobRunner* jobs_;
   const MeshPatch& patch_;
   Memory& memory_;
   PatchedMesh out_;
@@ -472,17 +407,19 @@ class MeshPatcher {
   struct Moved {
     Index from, to;
   };
+  std::size_t removed_ = 0;
   Vector<Moved> moved_;  // usable triangles with another number
 };
 
 }  // namespace
 
-PatchedMesh patched_mesh(const Mesh& before, const Topology* topology, const MeshPatch& patch, Memory& memory) {
+PatchedMesh patched_mesh(const Mesh& before, const Topology* topology, const MeshPatch& patch, Memory& memory,
+                         JobRunner* jobs) {
   require_triangles(before, "a patch", HF_NO_INDEX);
   if (!before.faces.empty())
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
          "triangles of a surface of polygons cannot be exchanged; make the surface of triangles");
-  return MeshPatcher(before, topology, patch, memory).make();
+  return MeshPatcher(before, topology, patch, memory, jobs).make();
 }
 
 }  // namespace hf_inner

@@ -36,6 +36,11 @@ struct PatchedMesh {
 // HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE, HF_ERROR_EMPTY (no triangle is left), all with the position in its list as
 // index, or std::bad_alloc. topology: of the mesh before, or null. Cost: copies of the arrays; without a topology a
 // pass over the triangles more.
-PatchedMesh patched_mesh(const Mesh& before, const Topology* topology, const MeshPatch& patch, Memory& memory);
+PatchedMesh patched_mesh(const Mesh& before, const Topology* topology, const MeshPatch& patch, Memory& memory,
+                         JobRunner* jobs = nullptr);
+
+// Writes the components of out.mesh. They stay if the triangles around the patch join the same components as before;
+// else all are found again. fresh: its new vertices.
+void put_components(const Mesh& before, Span<const Index> fresh, PatchedMesh& out, Memory& memory);
 
 }  // namespace hf_inner
