@@ -101,9 +101,9 @@ constexpr double long_commute = 100;
 constexpr double widened_angle = 1e-8;
 
 // By vertex, whether a triangle there is too thin to keep its weights; empty: none is.
-Vector<std::uint8_t> widened_vertices(const Mesh& mesh, Memory& memory) {
+Vector<std::uint8_t> widened_vertices(const Mesh& mesh, const MeshReport& report, Memory& memory) {
   Vector<std::uint8_t> changed(&memory);
-  if (mesh.report.smallest_angle > widened_angle && mesh.report.degenerate_triangle_count == 0) return changed;
+  if (report.smallest_angle > widened_angle && report.degenerate_triangle_count == 0) return changed;
   changed.assign(mesh.positions.size(), 0);
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     for (int k = 0; k < 3 && is_widened(mesh, t); ++k) changed[at(mesh.triangle(t)[k])] = 1;
@@ -132,7 +132,7 @@ Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, co
     if (options.operator_kind == OperatorKind::graph)
       changed.assign(core.geometry->limited.begin(), core.geometry->limited.end());
     else if (options.operator_kind != OperatorKind::uniform)
-      changed = widened_vertices(core.mesh, pool);
+      changed = widened_vertices(core.mesh, plain.mesh_report(), pool);
     core.laplacian = hf_inner::laplacian(plain.topology(), plain.weights(), pool, core.jobs.get());
   } else {
     DelaunayOperator made = face_operator(mesh, plain.topology(), plain.weights(), options.operator_kind, with_areas,

@@ -251,7 +251,14 @@ std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, SurfaceE
   const SiteCost cost(near->factor->statistics());
   const double inside = static_cast<double>(change.inside.size());
   const bool few = cost.edit_ns(static_cast<double>(change.unknown.size()) - inside, inside) < most * cost.rebase_ns(0);
-  if (!few || !share_factor(*made, near, base, change)) factorise_again(*made, *base);
+  if (few && share_factor(*made, near, base, change)) return made;
+  try {
+    factorise_again(*made, *base);
+  } catch (const Error& error) {
+    // needles among new triangles: Core::make has ways to factorise them
+    if (error.code() != HF_ERROR_NOT_POSITIVE_DEFINITE || !made->patch) throw;
+    return make_again(*plain, {made->stiffness, made->geometry});
+  }
   return made;
 }
 

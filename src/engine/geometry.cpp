@@ -20,6 +20,15 @@ void count_inside_out(const Mesh& mesh, MeshReport& report, Memory& memory) {
   report.first_inside_out = mesh.first_of_given([&](Index v) { return sides[at(mesh.component[at(v)])] < 0; });
 }
 
+double box_diagonal(Span<const Vec3> positions) noexcept {
+  Vec3 low = positions[0], high = low;
+  for (const Vec3 p : positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
 // Sums up the areas of vertices with other triangles again.
 void sum_areas(const PatchedMesh& made, SharedVector<double>& areas) {
   const Mesh& mesh = made.mesh;
@@ -46,6 +55,7 @@ MeshReport count_patched(const Geometry& shape) {
   const Topology& edges = shape.topology();
   MeshReport counted = mesh.report;
   counted.degenerate_triangle_count = 0;
+  counted.bounding_box_diagonal = mesh.scale * box_diagonal(mesh.positions);
   measure_triangles(mesh, counted, shape.jobs.get(), memory);
   count_edges(edges, counted);
   counted.negative_edge_count =

@@ -200,7 +200,8 @@ std::shared_ptr<const Geometry> read_link_edit(const hf_surface_edit_desc& desc,
   return before.geometry_of(edited_links(mesh, geometry.links.get(), removed, added, memory));
 }
 
-// Reads the triangles that go and come. Vertices keep their stiffness; new ones have 1.
+// Reads the triangles that go and come. Vertices keep their stiffness, copies have that of the copied vertex, and new
+// vertices have 1.
 SurfaceEdit read_patch(const hf_patch_desc& desc, const Surface& before, const hf_surface_info& info) {
   require_zero(desc.reserved);
   const bool exchanges = desc.removed_triangle_count > 0 || desc.new_vertex_count > 0 || desc.new_triangle_count > 0;
@@ -216,6 +217,12 @@ SurfaceEdit read_patch(const hf_patch_desc& desc, const Surface& before, const h
   if (info.triangle_limit != 0)
     check_sum(old.mesh.report.triangle_count, desc.new_triangle_count, info.triangle_limit, "triangles",
               "triangle_limit");
+  else if ((std::size_t{old.mesh.report.triangle_count} + desc.new_triangle_count) / triangles_per_vertex >
+           info.vertex_limit)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "%u triangles and %u new ones; without a triangle_limit at most eight per vertex of the vertex_limit %u are "
+         "taken",
+         old.mesh.report.triangle_count, desc.new_triangle_count, info.vertex_limit);
   Vector<Vec3> positions(old.memory.get());
   for (std::uint32_t v = 0; v < desc.new_vertex_count; ++v) {
     const double* const p = desc.new_positions + std::size_t{3} * v;
@@ -242,6 +249,11 @@ SurfaceEdit read_patch(const hf_patch_desc& desc, const Surface& before, const h
     const auto given = static_cast<std::size_t>(mesh.given_of_inner[v]);
     const std::int32_t there = given < from.inner_of_given.size() ? from.inner_of_given[given] : Mesh::none;
     if (there != Mesh::none) (*stiffness)[v] = (*before.stiffness())[static_cast<std::size_t>(there)];
+  }
+  for (const Mesh::CutCorner& cut : cuts) {
+    const auto copied = static_cast<std::size_t>(from.inner_of_given[static_cast<std::size_t>(cut.copied)]),
+               copy = static_cast<std::size_t>(mesh.inner_of_given[static_cast<std::size_t>(cut.vertex)]);
+    (*stiffness)[copy] = (*before.stiffness())[copied];
   }
   edit.stiffness = stiffness;
   return edit;

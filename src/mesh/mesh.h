@@ -85,6 +85,7 @@ struct Mesh {
         faces(memory),
         component(memory),
         isolated(memory),
+        returned(memory),
         cuts(memory) {}
 
   // Throws HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE (index = triangle or face), HF_ERROR_NON_FINITE (index = vertex),
@@ -155,6 +156,9 @@ struct Mesh {
   };
   // The given vertices without a usable triangle, ascending. They keep their places when the rest is posed.
   SharedVector<Isolated> isolated;
+  // The given vertices that were isolated and came in again by patches, ascending; one that came twice is listed twice.
+  // A vertex that came in again is another unknown than before (vertex_map.h).
+  SharedVector<std::int32_t> returned;
   // A corner that a cut gave another vertex (cut_edges.h). All numbers are the caller's.
   struct CutCorner {
     std::int32_t triangle, corner, vertex, copied;

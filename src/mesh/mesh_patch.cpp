@@ -67,13 +67,12 @@ class MeshPatcher {
     for (const Mesh::Doubled& one : before_.doubled) doubled_.push_back(Corners(one.corner));
     std::sort(doubled_.begin(), doubled_.end());
   }
+  bool is_doubled(Index t) const noexcept {
+    return std::binary_search(doubled_.begin(), doubled_.end(), Corners(before_.triangle(t)));
+  }
   // The corners of a triangle that changes are touched.
-  void touch(Index t, std::uint32_t i, const char* list) {
+  void touch(Index t) {
     const Index* const v = before_.triangle(t);
-    if (std::binary_search(doubled_.begin(), doubled_.end(), Corners(v)))
-      fail(HF_ERROR_UNSUPPORTED, i,
-           "entry %u of %s: triangle %u lies on another one; leave one of them out of the mesh", i, list,
-           before_.given_of_triangle(t));
     for (int k = 0; k < 3; ++k) touched_[at(v[k])] = 1;
   }
 
@@ -87,7 +86,11 @@ class MeshPatcher {
       if (t == Mesh::none)
         fail(HF_ERROR_NOT_FOUND, i, "entry %u of removed_triangles: triangle %u has no area or was removed before", i,
              given);
-      touch(t, i, "removed_triangles");
+      if (is_doubled(t))
+        fail(HF_ERROR_UNSUPPORTED, i,
+             "entry %u of removed_triangles: triangle %u lies on another one; leave one of them out of the mesh", i,
+             given);
+      touch(t);
       if (gone_[at(t)])
         fail(HF_ERROR_CONFLICT, i, "entry %u of removed_triangles: triangle %u is listed twice", i, given);
       gone_[at(t)] = 1;
@@ -139,7 +142,12 @@ class MeshPatcher {
   void read_cuts() {
     for (const Mesh::CutCorner& cut : patch_.cuts) {
       const Index t = before_.triangle_of_given[at(cut.triangle)];
-      touch(t, HF_NO_INDEX, "cut_edges");
+      if (is_doubled(t))
+        fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+             "the cut gives a corner of triangle %d a copy of vertex %d, and the triangle lies on another one; leave "
+             "one of them out of the mesh",
+             cut.triangle, cut.copied);
+      touch(t);
       gone_[at(t)] = is_cut;
       cut_.push_back(t);
       if (copied_.empty() || copies_.back() != cut.vertex) {
@@ -247,6 +255,9 @@ class MeshPatcher {
       mesh.given_of_inner[at(to)] = before_.given_of_inner[v];
     }
     put_isolated();
+    mesh.returned.assign(before_.returned.begin(), before_.returned.end());
+    mesh.returned.append(given_.begin(), std::lower_bound(given_.begin(), given_.end(), static_cast<Index>(old)));
+    std::sort(mesh.returned.begin(), mesh.returned.end());
     for (std::size_t i = 0; i < copies_.size(); ++i) {
       const Index v = slots_[given_.size() + i];
       mesh.positions[at(v)] = before_.positions[at(copied_[i])];
