@@ -10,7 +10,7 @@ from mathutils import Matrix, Quaternion, Vector
 
 sys.path.insert(0, os.environ["HF_TESTS"])
 import blender_addon  # noqa: E402
-from blender_bodies import AROUND, active, tube  # noqa: E402
+from blender_bodies import AROUND, active, rig_tube, tube, weigh_tube  # noqa: E402
 
 armatures, carriers, mesh_data, operators, panels, session = blender_addon.modules("armatures", "carriers", "mesh_data", "operators",
     "panels", "session")
@@ -20,30 +20,6 @@ for leftover in list(bpy.data.objects):
 body = tube()
 points = mesh_data.positions_of(body.data)
 z = points[:, 2]
-
-
-def make_rig(weights):
-    """Two bones along the tube; weights: of the upper one."""
-    rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
-    bpy.context.scene.collection.objects.link(rig)
-    active(rig)
-    bpy.ops.object.mode_set(mode="EDIT")
-    for name, low, high in (("lower", 0, 2), ("upper", 2, 4)):
-        bone = rig.data.edit_bones.new(name)
-        bone.head, bone.tail = (0, 0, low), (0, 0, high)
-    rig.data.edit_bones["upper"].parent = rig.data.edit_bones["lower"]
-    bpy.ops.object.mode_set(mode="OBJECT")
-    rig.pose.bones["upper"].rotation_mode = "QUATERNION"
-    make_weights(weights)
-    body.modifiers.new("rig", "ARMATURE").object = rig
-    return rig
-
-
-def make_weights(weights):
-    for name, share in (("lower", 1 - weights), ("upper", weights)):
-        group = body.vertex_groups.get(name) or body.vertex_groups.new(name=name)
-        for vertex, weight in enumerate(share):
-            group.add([vertex], float(weight), "REPLACE")
 
 
 def bend(degrees):
@@ -71,7 +47,7 @@ def held():
     return session.session_of(body, bind=False)
 
 
-rig = make_rig(np.clip(z - 1.5, 0, 1))
+rig = rig_tube(body, np.clip(z - 1.5, 0, 1))
 bend(90)
 posed = shown()
 assert posed[-AROUND:, 1].mean() < -1.9  # the upper half lies along -y
@@ -165,7 +141,7 @@ body.data.vertices.foreach_set("co", points.ravel())
 np.testing.assert_allclose(weights_now(), in_pose, atol=1e-5)
 bare, body.data = body.data, data
 bpy.data.meshes.remove(bare)
-make_weights(np.clip(z - 1.5, 0, 1))
+weigh_tube(body, np.clip(z - 1.5, 0, 1))
 bpy.context.view_layer.update()
 
 # ---- a file that is opened again, in the pose
@@ -206,7 +182,7 @@ active(body)
 assert bpy.ops.hf.propose() == {"FINISHED"}
 waiting = {o.name for o in carriers.offered(body["hf_key"])}
 assert waiting
-rig = make_rig(np.clip(z - 1.5, 0, 1))
+rig = rig_tube(body, np.clip(z - 1.5, 0, 1))
 rig.location.x = 2
 active(body)
 bpy.context.view_layer.update()
@@ -263,7 +239,7 @@ for scale, with_rig in (((2, 2, 2), False), ((1, 2, 0.5), False), ((1, 1, -1), F
     body.scale, body.rotation_euler, body.location = scale, (0.3, 0.2, 0.1), (1, 2, 3)
     bpy.context.view_layer.update()
     if with_rig:
-        rig = make_rig(np.clip(z - 1.5, 0, 1))
+        rig = rig_tube(body, np.clip(z - 1.5, 0, 1))
         rig.matrix_world = body.matrix_world
         bend(60)
     active(body)

@@ -17,6 +17,7 @@ from mathutils import Vector
 
 sys.path.insert(0, os.environ["HF_TESTS"])
 import blender_addon  # noqa: E402
+from blender_bodies import active  # noqa: E402
 
 mesh_data, session = blender_addon.modules("mesh_data", "session")
 
@@ -45,12 +46,6 @@ def sphere(name, n):
         obj.vertex_groups.new(name=group).add(members.tolist(), 1.0, "REPLACE")
     obj.vertex_groups.new(name="anchors").add(np.concatenate([order[:k], order[-k:]]).tolist(), 1.0, "REPLACE")
     return obj
-
-
-def active(obj):
-    bpy.ops.object.select_all(action="DESELECT")
-    obj.select_set(True)
-    bpy.context.view_layer.objects.active = obj
 
 
 def timed(function):

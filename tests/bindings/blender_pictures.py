@@ -7,7 +7,6 @@ quads that follow a stroke, which simulated events drag as a user would.
 import math
 import os
 import sys
-import traceback
 
 import bpy
 import numpy
@@ -16,9 +15,11 @@ from mathutils import Quaternion, Vector
 
 MODEL, FOLDER = sys.argv[sys.argv.index("--") + 1:][:2]
 numpy.bool = bool  # Blender 3.4's own glTF importer still asks newer numpy for it
-bpy.context.preferences.view.show_splash = False
 sys.path.insert(0, os.environ["HF_TESTS"])
 import blender_addon  # noqa: E402
+import blender_window  # noqa: E402
+from blender_bodies import active  # noqa: E402
+from blender_window import click, inside, only_view, open_tab, run, sidebar, undo, view  # noqa: E402
 
 quads, = blender_addon.modules("quads")
 
@@ -30,18 +31,6 @@ def done(made, state, *rest, shown=quads.done):
 
 
 quads.done = done
-
-
-def view():
-    window = bpy.context.window_manager.windows[0]
-    area = max((a for a in window.screen.areas if a.type == "VIEW_3D"), key=lambda a: a.width * a.height)
-    return window, area, next(r for r in area.regions if r.type == "WINDOW")
-
-
-def inside(operator, *arguments, **options):
-    window, area, region = view()
-    with bpy.context.temp_override(window=window, area=area, region=region):
-        return operator(*arguments, **options)
 
 
 def screen():
@@ -68,21 +57,11 @@ def picture(name, pixels=None):
     bpy.data.images.remove(image)
 
 
-def activate(obj):
-    for other in bpy.context.view_layer.objects:
-        other.select_set(other is obj)
-    bpy.context.view_layer.objects.active = obj
-
-
 def set_up():
     for leftover in list(bpy.data.objects):
         bpy.data.objects.remove(leftover)
-    for panel in bpy.types.Panel.__subclasses__():  # the tabs of others; Blender's own tab Item stays
-        if (getattr(panel, "bl_region_type", ""), getattr(panel, "bl_space_type", "")) == ("UI", "VIEW_3D") \
-                and getattr(panel, "bl_category", "") != "hf" and panel.is_registered:
-            bpy.utils.unregister_class(panel)
     inside(bpy.ops.import_scene.gltf, filepath=MODEL)
-    inside(bpy.ops.screen.screen_full_area, use_hide_panels=False)
+    only_view()
 
 
 def look():
@@ -97,7 +76,7 @@ def look():
     for polygon in body.data.polygons:
         polygon.use_smooth = True
     body.color = (0.55, 0.62, 0.72, 1)
-    activate(body)
+    active(body)
     for other in bpy.data.objects:
         other.hide_set(other.type == "ARMATURE")
     corners = [body.matrix_world @ Vector(c) for c in body.bound_box]
@@ -108,17 +87,8 @@ def look():
     space.region_3d.view_rotation = Quaternion((0, 0, 1), 0.9) @ Quaternion((1, 0, 0), 1.36)
 
 
-def open_tab():
-    window, area, _ = view()
-    sidebar = next(r for r in area.regions if r.type == "UI")
-    place = {"x": sidebar.x + sidebar.width - 12, "y": sidebar.y + sidebar.height - 62}  # the tab below Item
-    window.event_simulate(type="MOUSEMOVE", value="NOTHING", **place)
-    window.event_simulate(type="LEFTMOUSE", value="PRESS", **place)
-    window.event_simulate(type="LEFTMOUSE", value="RELEASE", **place)
-
-
 def propose():
-    activate(mesh())
+    active(mesh())
     assert bpy.ops.hf.propose() == {"FINISHED"}
 
 
@@ -132,7 +102,7 @@ def pull():
         key=lambda o: o.location.z)
     head.location += Vector((0.02, 0.0, 0.16)) * size
     head.rotation_mode = "QUATERNION"
-    activate(head)
+    active(head)
     bpy.context.view_layer.update()
     for _ in range(20):
         bpy.ops.hf.update()
@@ -144,11 +114,11 @@ def strips():
     area.spaces.active.shading.color_type = "VERTEX"
 
 
-def event(kind, value="PRESS", at=(0, 0), **keys):
+def event(kind, value="PRESS", at=(0, 0)):
     """at: from the origin of the stroke, in pixels."""
-    window, _, region = view()
-    x, y = location_3d_to_region_2d(region, region.data, bpy.data.objects["stroke"].location)
-    window.event_simulate(type=kind, value=value, x=int(region.x + x + at[0]), y=int(region.y + y + at[1]), **keys)
+    _, _, region = view()
+    middle = location_3d_to_region_2d(region, region.data, bpy.data.objects["stroke"].location)
+    blender_window.event(kind, value, middle + Vector(at))
 
 
 def move(degrees):
@@ -160,7 +130,7 @@ def make_quads():
     _, area, _ = view()
     space = area.spaces.active
     body = mesh()
-    activate(body)
+    active(body)
     assert bpy.ops.hf.unbind() == {"FINISHED"}
     right, up, back = (space.region_3d.view_rotation @ Vector(axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
     middle = sum((body.matrix_world @ Vector(c) for c in body.bound_box), Vector()) / 8
@@ -188,7 +158,7 @@ def make_quads():
     assert bpy.ops.hf.quads(faces=5000) == {"FINISHED"}
     body.hide_set(True)
     made = quads_made()
-    activate(made)
+    active(made)
     bpy.context.scene.cursor.location = on_body(0.17, 0.11)
     assert bpy.ops.hf.add_pole(count="5") == {"FINISHED"}
     bpy.context.active_object.show_in_front = True
@@ -198,7 +168,7 @@ def make_quads():
     space.overlay.wireframe_threshold = 1
     space.region_3d.view_distance *= 0.7
     space.region_3d.view_location += size * (0.05 * up + 0.08 * right)
-    activate(stroke)
+    active(stroke)
     bpy.ops.ed.undo_push(message="quads, a stroke and a pole")
 
 
@@ -214,12 +184,7 @@ def places_of(obj):
 
 def open_panel():
     """A click on the panel Quads, below the sentence at the top."""
-    window, area, _ = view()
-    sidebar = next(r for r in area.regions if r.type == "UI")
-    place = {"x": sidebar.x + 60, "y": sidebar.y + sidebar.height - 88}
-    window.event_simulate(type="MOUSEMOVE", value="NOTHING", **place)
-    window.event_simulate(type="LEFTMOUSE", value="PRESS", **place)
-    window.event_simulate(type="LEFTMOUSE", value="RELEASE", **place)
+    click(sidebar().x + 60, sidebar().y + sidebar().height - 88)
 
 
 def turn_stroke():
@@ -253,17 +218,16 @@ def relaxed():
 def show_pole():
     """The pole from near, along its normal."""
     pole = next(o for o in bpy.data.objects if "hf_pole" in o)
-    activate(pole)
+    active(pole)
     space = view()[1].spaces.active
     space.region_3d.view_location = pole.location
     space.region_3d.view_rotation = Quaternion((0, 0, 1), 0.1) @ space.region_3d.view_rotation
     space.region_3d.view_distance *= 0.25
 
 
-def undo():
+def take_back():
     assert abs(bpy.data.objects["stroke"].matrix_world.to_quaternion().angle) > 0.3
-    event("Z", ctrl=True)
-    event("Z", "RELEASE", ctrl=True)
+    undo()
 
 
 def undone():
@@ -274,22 +238,7 @@ def undone():
 seen = {}
 STEPS = [set_up, look, open_tab, propose, lambda: picture("proposed"), pull, lambda: picture("pulled"), strips,
     lambda: picture("field"), make_quads, relaxed, open_panel, lambda: move(0), lambda: picture("drawn", screen()[:, :760]), turn_stroke,
-    lambda: move(-10), lambda: move(-30), on_the_way, lambda: picture("followed"), lambda: move(-50), let_go, relaxed, undo, relaxed,
+    lambda: move(-10), lambda: move(-30), on_the_way, lambda: picture("followed"), lambda: move(-50), let_go, relaxed, take_back, relaxed,
     undone, show_pole, lambda: None, lambda: picture("pole")]
 
-
-def tick():
-    try:
-        if STEPS[0]():  # not ready yet
-            return 1.0
-        STEPS.pop(0)
-        view()[1].tag_redraw()
-    except BaseException:
-        traceback.print_exc()
-        os._exit(1)
-    if not STEPS:
-        os._exit(0)
-    return 1.0
-
-
-bpy.app.timers.register(tick, first_interval=2.0)
+run(STEPS, 1.0)

@@ -14,6 +14,7 @@ from mathutils import Vector
 
 sys.path.insert(0, os.environ["HF_TESTS"])
 import blender_addon  # noqa: E402
+from blender_bodies import fails  # noqa: E402
 import hf  # noqa: E402  (the package inside the add-on)
 mesh_data, panels, quads, session = blender_addon.modules("mesh_data", "panels", "quads", "session")
 
@@ -115,15 +116,6 @@ def fresh(source, *members, **options):
     bpy.data.objects.remove(made)
     bpy.data.meshes.remove(mesh)
     return out
-
-
-def fails(text, operator, **arguments):
-    try:
-        operator(**arguments)
-    except RuntimeError as error:
-        assert text in str(error), error
-        return
-    raise AssertionError(f"{operator.idname()} did not fail with: {text}")
 
 
 FACES = 900

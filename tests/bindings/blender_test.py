@@ -10,6 +10,7 @@ from mathutils import Matrix, Quaternion, Vector
 
 sys.path.insert(0, os.environ["HF_TESTS"])
 import blender_addon  # noqa: E402
+from blender_bodies import active, cylinder, fails  # noqa: E402
 import hf  # noqa: E402  (the package inside the add-on)
 carriers, mesh_data, panels, rigs, session = blender_addon.modules("carriers", "mesh_data", "panels", "rig", "session")
 import golden  # noqa: E402
@@ -20,38 +21,14 @@ assert "vendor" in hf.__file__, hf.__file__
 assert golden.main(SCENES) == 0, "golden scenes"
 
 
-def cylinder(name, length, radius, rings, around, at):
-    points = [(radius * math.cos(2 * math.pi * j / around), radius * math.sin(2 * math.pi * j / around),
-        length * i / (rings - 1))
-              for i in range(rings) for j in range(around)]
-    faces = [(i * around + j, i * around + (j + 1) % around, (i + 1) * around + (j + 1) % around, (i + 1) * around + j)
-             for i in range(rings - 1) for j in range(around)]
-    faces += [tuple(reversed(range(around))), tuple(range((rings - 1) * around, rings * around))]
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(points, [], faces)
-    obj = bpy.data.objects.new(name, mesh)
-    obj.location = at
-    bpy.context.scene.collection.objects.link(obj)
-    z = np.array(points)[:, 2] / length
+def grouped(*arguments):
+    """A cylinder with three vertex groups."""
+    obj, points = cylinder(*arguments)
+    z = points[:, 2] / points[:, 2].max()
     for group, where in (("hf low", z <= 0.1), ("hf high", z >= 0.9),
-        ("middle", (abs(z - 0.5) < 0.04) & (np.array(points)[:, 0] > 0))):
+        ("middle", (abs(z - 0.5) < 0.04) & (points[:, 0] > 0))):
         obj.vertex_groups.new(name=group).add(np.flatnonzero(where).tolist(), 1.0, "REPLACE")
-    return obj, np.array(points)
-
-
-def active(obj):
-    bpy.ops.object.select_all(action="DESELECT")
-    obj.select_set(True)
-    bpy.context.view_layer.objects.active = obj
-
-
-def fails(text, operator, **arguments):
-    try:
-        operator(**arguments)
-    except RuntimeError as error:
-        assert text in str(error), error
-        return
-    raise AssertionError(f"{operator.idname()} did not fail with: {text}")
+    return obj, points
 
 
 for leftover in list(bpy.data.objects):
@@ -65,7 +42,7 @@ def still_bound(obj, made):
 
 # what was kept for a removed object goes when the next one is bound
 for _ in range(4):
-    gone = cylinder("gone", 4.0, 0.5, 60, 40, (0, 0, 0))[0]
+    gone = grouped("gone", 4.0, 0.5, 60, 40, (0, 0, 0))[0]
     active(gone)
     assert bpy.ops.hf.add_groups(prefix="hf ") == {"FINISHED"}
     assert list(session.sessions) == [gone["hf_key"]], session.sessions
@@ -73,13 +50,13 @@ for _ in range(4):
     for leftover in list(bpy.data.objects):
         bpy.data.objects.remove(leftover)
 assert not last.surface.closed
-kept, _ = cylinder("kept", 4.0, 0.5, 60, 40, (0, 0, 0))
+kept, _ = grouped("kept", 4.0, 0.5, 60, 40, (0, 0, 0))
 active(kept)
 assert bpy.ops.hf.bind() == {"FINISHED"}
 assert last.surface.closed and last.pose.closed
 assert bpy.ops.hf.unbind() == {"FINISHED"}
 bpy.data.objects.remove(kept)
-bar, points = cylinder("bar", 4.0, 0.5, 81, 48, (0, 0, 0))
+bar, points = grouped("bar", 4.0, 0.5, 81, 48, (0, 0, 0))
 
 # ---- bind, handles from groups; the panel says what is next
 active(bar)
@@ -291,7 +268,7 @@ for frame, share in ((1, 0.0), (10, 1.0)):
         bone.rotation_quaternion = Quaternion((1, 0, 0, 0)).slerp(Quaternion(bone["turn"]), share)
         bone.keyframe_insert("location", frame=frame)
         bone.keyframe_insert("rotation_quaternion", frame=frame)
-other, other_points = cylinder("long", 6.0, 0.8, 61, 36, (4, 0, 0))
+other, other_points = grouped("long", 6.0, 0.8, 61, 36, (4, 0, 0))
 active(other)
 bar.select_set(True)
 assert bpy.ops.hf.transfer(start=1, end=10, prefix="hf ") == {"FINISHED"}
@@ -341,7 +318,7 @@ for obj in (bar, other):
     obj.vertex_groups[name + " [tail]"].name = name
 
 # ---- bones as handles: an armature of three bones in a third tube, posed, animated, taken away
-arm, arm_points = cylinder("arm", 4.0, 0.4, 81, 48, (-4, 0, 0))
+arm, arm_points = grouped("arm", 4.0, 0.4, 81, 48, (-4, 0, 0))
 rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
 rig.location = (-4, 0, 0)
 bpy.context.scene.collection.objects.link(rig)
@@ -423,7 +400,7 @@ empty_mesh = bpy.data.objects.new("nothing", bpy.data.meshes.new("nothing"))
 bpy.context.scene.collection.objects.link(empty_mesh)
 active(empty_mesh)
 fails("", bpy.ops.hf.bind)
-broken, _ = cylinder("broken", 1, 1, 4, 6, (0, 0, 0))
+broken, _ = grouped("broken", 1, 1, 4, 6, (0, 0, 0))
 broken.data.vertices[3].co.x = float("nan")
 active(broken)
 fails("vertex 3", bpy.ops.hf.bind)
@@ -431,7 +408,7 @@ for junk in (empty_mesh, broken, lamp):
     bpy.data.objects.remove(junk)
 
 # ---- proposed handles: foot and trunk hold; a tip is offered, is a handle while it is away from its place, and none when back
-post, post_points = cylinder("post", 4.0, 0.5, 41, 24, (6, 0, 0))
+post, post_points = grouped("post", 4.0, 0.5, 41, 24, (6, 0, 0))
 active(post)
 assert bpy.ops.hf.propose() == {"FINISHED"}
 held = session.session_of(post, bind=False)

@@ -9,36 +9,7 @@ import numpy as np
 
 sys.path.insert(0, os.environ["HF_TESTS"])
 import blender_addon  # noqa: E402
-
-
-def cylinder(name, length, radius, rings, around, at):
-    points = [(radius * math.cos(2 * math.pi * j / around), radius * math.sin(2 * math.pi * j / around),
-        length * i / (rings - 1))
-              for i in range(rings) for j in range(around)]
-    faces = [(i * around + j, i * around + (j + 1) % around, (i + 1) * around + (j + 1) % around, (i + 1) * around + j)
-             for i in range(rings - 1) for j in range(around)]
-    faces += [tuple(reversed(range(around))), tuple(range((rings - 1) * around, rings * around))]
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(points, [], faces)
-    obj = bpy.data.objects.new(name, mesh)
-    obj.location = at
-    bpy.context.scene.collection.objects.link(obj)
-    return obj, np.array(points)
-
-
-def active(obj):
-    bpy.ops.object.select_all(action="DESELECT")
-    obj.select_set(True)
-    bpy.context.view_layer.objects.active = obj
-
-
-def fails(text, operator, **arguments):
-    try:
-        operator(**arguments)
-    except RuntimeError as error:
-        assert text in str(error), error
-        return
-    raise AssertionError(f"{operator.idname()} did not fail with: {text}")
+from blender_bodies import active, cylinder, fails  # noqa: E402
 
 
 def table(mesh_object):

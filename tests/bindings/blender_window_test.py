@@ -4,7 +4,6 @@ blender_window_test.py FOLDER, which gets three pictures: nothing bound, a handl
 import math
 import os
 import sys
-import traceback
 
 import bpy
 import numpy as np
@@ -12,38 +11,20 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from mathutils import Quaternion, Vector
 
 FOLDER = sys.argv[sys.argv.index("--") + 1]
-bpy.context.preferences.view.show_splash = False
 sys.path.insert(0, os.environ["HF_TESTS"])
 import blender_addon  # noqa: E402
-from blender_bodies import active, tube  # noqa: E402
+from blender_bodies import active, rig_tube, tube  # noqa: E402
+from blender_window import event, inside, only_view, open_tab, run, undo, view  # noqa: E402
 
 mesh_data, paint, panels, session = blender_addon.modules("mesh_data", "paint", "panels", "session")
 os.makedirs(FOLDER, exist_ok=True)
 seen = {}
 
 
-def view():
-    window = bpy.context.window_manager.windows[0]
-    area = max((a for a in window.screen.areas if a.type == "VIEW_3D"), key=lambda a: a.width * a.height)
-    return window, area, next(r for r in area.regions if r.type == "WINDOW")
-
-
-def inside(operator, *arguments, **options):
-    window, area, region = view()
-    with bpy.context.temp_override(window=window, area=area, region=region):
-        return operator(*arguments, **options)
-
-
 def picture(name):
     path = os.path.join(FOLDER, f"{name}.png")
     inside(bpy.ops.screen.screenshot, filepath=path)
     assert os.path.getsize(path) > 10000, name
-
-
-def event(kind, value="PRESS", at=(0, 0), **keys):
-    """at: pixels in the 3D view."""
-    window, _, region = view()
-    window.event_simulate(type=kind, value=value, x=int(region.x + at[0]), y=int(region.y + at[1]), **keys)
 
 
 def pixel(place):
@@ -75,29 +56,10 @@ def held():
 def set_up():
     for leftover in list(bpy.data.objects):
         bpy.data.objects.remove(leftover)
-    for panel in bpy.types.Panel.__subclasses__():  # the tabs of others; Blender's own tab Item stays
-        if (getattr(panel, "bl_region_type", ""), getattr(panel, "bl_space_type", "")) == ("UI", "VIEW_3D") \
-                and getattr(panel, "bl_category", "") != "hf" and panel.is_registered:
-            bpy.utils.unregister_class(panel)
-    inside(bpy.ops.screen.screen_full_area, use_hide_panels=False)
+    only_view()
     made = tube()
-    rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
-    bpy.context.scene.collection.objects.link(rig)
-    active(rig)
-    bpy.ops.object.mode_set(mode="EDIT")
-    for name, low, high in (("lower", 0, 2), ("upper", 2, 4)):
-        bone = rig.data.edit_bones.new(name)
-        bone.head, bone.tail = (0, 0, low), (0, 0, high)
-    rig.data.edit_bones["upper"].parent = rig.data.edit_bones["lower"]
-    bpy.ops.object.mode_set(mode="OBJECT")
-    rig.pose.bones["upper"].rotation_mode = "QUATERNION"
+    rig = rig_tube(made, np.clip(mesh_data.positions_of(made.data)[:, 2] - 1.5, 0, 1))
     rig.pose.bones["upper"].rotation_quaternion = Quaternion((0, 0, 1), math.radians(-70))
-    share = np.clip(mesh_data.positions_of(made.data)[:, 2] - 1.5, 0, 1)
-    for name, weights in (("lower", 1 - share), ("upper", share)):
-        group = made.vertex_groups.new(name=name)
-        for vertex, weight in enumerate(weights):
-            group.add([vertex], float(weight), "REPLACE")
-    made.modifiers.new("rig", "ARMATURE").object = rig
     for polygon in made.data.polygons:
         polygon.use_smooth = True
     active(made)
@@ -112,15 +74,6 @@ def look():
     space.region_3d.view_location = (0.6, 0, 1.8)
     space.region_3d.view_distance = 8
     space.region_3d.view_rotation = Quaternion((1, 0, 0), math.radians(90))  # from the front: x to the right, z up
-
-
-def open_tab():
-    window, area, _ = view()
-    sidebar = next(r for r in area.regions if r.type == "UI")
-    place = {"x": sidebar.x + sidebar.width - 12, "y": sidebar.y + sidebar.height - 62}  # the tab below Item
-    window.event_simulate(type="MOUSEMOVE", value="NOTHING", **place)
-    window.event_simulate(type="LEFTMOUSE", value="PRESS", **place)
-    window.event_simulate(type="LEFTMOUSE", value="RELEASE", **place)
 
 
 def add_handles():
@@ -204,11 +157,6 @@ def painted():
     seen["pinned"] = len(held().painted)
 
 
-def undo():
-    event("Z", ctrl=True)
-    event("Z", "RELEASE", ctrl=True)
-
-
 def undone():
     assert len(held().painted) < seen["pinned"], "undo of the stroke"
 
@@ -218,19 +166,4 @@ STEPS = [set_up, look, open_tab, lambda: None, lambda: picture("nothing_bound"),
     lambda: stroke(-0.1, 0.5), lambda: stroke(0, 0.7), stroke_ends, lambda: None, painted, lambda: picture("painted_pins"), undo,
     lambda: None, undone]
 
-
-def tick():
-    try:
-        STEPS.pop(0)()
-        view()[1].tag_redraw()
-    except BaseException:
-        traceback.print_exc()
-        picture("failed")
-        os._exit(1)
-    if not STEPS:
-        print("blender window: all right", flush=True)
-        os._exit(0)
-    return 0.7
-
-
-bpy.app.timers.register(tick, first_interval=2.0)
+run(STEPS, 0.7, failed=lambda: picture("failed"))

@@ -45,7 +45,7 @@ pub(crate) struct Joints {
     pub(crate) skeleton: hf::Skeleton,
 }
 
-fn refuse(code: i32, message: &str) -> hf::Error {
+pub(crate) fn refuse(code: i32, message: &str) -> hf::Error {
     hf::Error { code, message: message.into(), function: String::new(), index: None }
 }
 

@@ -1,5 +1,5 @@
 //! The state of a bound deformer: its surface, its pose, and the meshes that it writes.
-use crate::bind::Joints;
+use crate::bind::{Joints, refuse};
 use crate::shading::Shading;
 use crate::{DeformHandle, HandleLimb, HandleRegion, HandleRotation, Wanted};
 use bevy::ecs::entity::EntityHashMap;
@@ -7,7 +7,7 @@ use bevy::math::{Affine3A, DQuat, DVec3, Mat3A, Vec3A};
 use bevy::mesh::VertexAttributeValues;
 use bevy::mesh::skinning::SkinnedMesh;
 use bevy::prelude::*;
-use hf::raw::{HF_ERROR_NON_FINITE, hf_handle_proposal, hf_hit};
+use hf::raw::{HF_ERROR_NON_FINITE, HF_ERROR_UNSUPPORTED, hf_handle_proposal, hf_hit};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -110,7 +110,14 @@ pub struct DeformedMesh {
 }
 
 impl DeformedMesh {
-    pub(crate) fn new(parts: Vec<Part>, surface: hf::Surface, pose: hf::Pose, rest: Vec<f32>, shading: Shading, joints: Option<Joints>) -> Self {
+    pub(crate) fn new(
+        parts: Vec<Part>,
+        surface: hf::Surface,
+        pose: hf::Pose,
+        rest: Vec<f32>,
+        shading: Shading,
+        joints: Option<Joints>,
+    ) -> Self {
         let tangents = if parts.iter().any(|part| part.rest_tangents.is_some()) { rest.len() / 3 } else { 0 };
         DeformedMesh {
             tangents: vec![[0.0; 3]; tangents],
@@ -185,6 +192,18 @@ impl DeformedMesh {
         let proposals = self.surface.propose_handles(Some(&mut owner), &self.proposal_options())?;
         let region = |number: usize| HandleRegion((0..owner.len() as u32).filter(|&v| owner[v as usize] as usize == number).collect());
         Ok(proposals.into_iter().enumerate().map(|(number, proposal)| (proposal, region(number))).collect())
+    }
+
+    /// Stiffness and links of the surface, in place: nothing is factorised, and handles stay where they stand. A patch is refused.
+    /// A solver of yours follows with `move_to(deformed.surface())`.
+    pub fn edit(&mut self, edit: &hf::SurfaceEdit) -> hf::Result<()> {
+        if edit.patch.is_some() {
+            return Err(refuse(HF_ERROR_UNSUPPORTED, "a patch changes vertices: edit the meshes and insert the Deformer again"));
+        }
+        let edited = self.surface.edit(edit)?;
+        self.pose.move_to(&edited)?;
+        (self.surface, self.settled) = (edited, false);
+        Ok(())
     }
 
     fn proposal_options(&self) -> hf::HandleProposalsOptions<'_> {
@@ -397,8 +416,7 @@ impl DeformedMesh {
 fn motion(wanted: &Wanted, centroid: DVec3) -> hf::Result<Motion> {
     let (_, turn, place) = wanted.place.to_scale_rotation_translation();
     if !(turn.is_finite() && place.is_finite()) {
-        let message = "the transform of a handle's entity must be finite and have a scale other than 0".into();
-        return Err(hf::Error { code: HF_ERROR_NON_FINITE, message, function: String::new(), index: None });
+        return Err(refuse(HF_ERROR_NON_FINITE, "the transform of a handle's entity must be finite and have a scale other than 0"));
     }
     let turn = DQuat::from_xyzw(turn.x.into(), turn.y.into(), turn.z.into(), turn.w.into()).normalize();
     let translation = place.as_dvec3() + turn * (centroid - wanted.handle.point.as_dvec3()) - centroid;

@@ -335,6 +335,52 @@ fn handles_come_and_go_while_posed() {
 }
 
 #[test]
+fn stiffness_and_links_change_while_posed() {
+    let mut app = app();
+    let mesh = add(&mut app, tube());
+    let body = app.world_mut().spawn((Deformer { links: None, ..default() }, Mesh3d(mesh.clone()))).id();
+    // a ring that nothing holds, at the tip
+    let ring = Transform::from_xyz(0.0, 2.05, 0.0).with_scale(Vec3::new(1.0, 0.1, 1.0));
+    app.world_mut().spawn((Mesh3d(mesh), ring, ChildOf(body)));
+    handle(&mut app, body, [0.0, 0.0, 0.0]);
+    let tip = handle(&mut app, body, [0.0, 2.0, 0.0]);
+    app.update();
+    place(&mut app, tip, Transform::from_xyz(1.0, 1.7, 0.0).with_rotation(Quat::from_rotation_z(-0.9)));
+    settle(&mut app);
+    let (rest, posed) = (deformed(&app, body).rest().to_vec(), deformed(&app, body).posed().to_vec());
+    let edit = |app: &mut App, edit: &hf_bevy::hf::SurfaceEdit| {
+        let done = app.world_mut().get_mut::<DeformedMesh>(body).unwrap().edit(edit);
+        settle(app);
+        done
+    };
+    // a rigid belt keeps the distance of its ends
+    let at = |row: usize| row * (AROUND + 1);
+    let belt: Vec<u32> = (at(15) as u32..at(26) as u32).collect();
+    let strain = |rows: &[[f32; 3]]| {
+        let length = |rows: &[[f32; 3]]| Vec3::from_array(rows[at(15)]).distance(Vec3::from_array(rows[at(25)]));
+        (length(rows) / length(&rest) - 1.0).abs()
+    };
+    assert!(strain(&posed) > 0.02, "{}", strain(&posed));
+    edit(&mut app, &hf_bevy::hf::SurfaceEdit { vertices: Some(&belt), stiffness: Some(&vec![1e4; belt.len()]), ..default() }).unwrap();
+    assert!(strain(deformed(&app, body).posed()) < 2e-3, "{}", strain(deformed(&app, body).posed()));
+    assert_eq!(deformed(&app, body).handle_count(), 2);
+    edit(&mut app, &hf_bevy::hf::SurfaceEdit { vertices: Some(&belt), stiffness: Some(&vec![1.0; belt.len()]), ..default() }).unwrap();
+    near(&deformed(&app, body).posed()[..at(RINGS)], &posed[..at(RINGS)], 0.02);
+    // a link takes the ring along
+    let moves = |app: &App| Vec3::from_array(deformed(app, body).posed()[at(RINGS)]).distance(Vec3::from_array(rest[at(RINGS)]));
+    assert!(moves(&app) < 1e-5, "{}", moves(&app));
+    let mut link = hf_bevy::hf::raw::hf_link { vertex: at(RINGS) as u32, weight: 1.0, ..default() };
+    (link.corners, link.barycentrics) = ([at(RINGS - 1) as u32, u32::MAX, u32::MAX], [1.0, 0.0, 0.0]);
+    edit(&mut app, &hf_bevy::hf::SurfaceEdit { links: Some(&[link]), ..default() }).unwrap();
+    assert!(moves(&app) > 0.5, "{}", moves(&app));
+    // what is refused changes nothing
+    let stood = deformed(&app, body).posed().to_vec();
+    let patch = hf_bevy::hf::Patch { removed_triangles: Some(&[0]), ..default() };
+    let refused = edit(&mut app, &hf_bevy::hf::SurfaceEdit { patch: Some(patch), ..default() }).unwrap_err();
+    assert_eq!((refused.name(), deformed(&app, body).posed()), ("HF_ERROR_UNSUPPORTED", &stood[..]));
+}
+
+#[test]
 fn a_handle_is_a_child_of_anything() {
     let mut app = app();
     let (body, _, tip) = held_tube(&mut app);
@@ -550,7 +596,20 @@ fn a_skeleton_names_the_proposals_and_a_head_is_whole() {
         let side = |bit: usize, low: f32, high: f32| move |corner: usize| if corner >> bit & 1 == 1 { high } else { low };
         let [x, y, z] = [(0, low.x, high.x), (1, low.y, high.y), (2, low.z, high.z)].map(|(bit, low, high)| side(bit, low, high));
         positions.extend((0..8).map(|corner| [x(corner), y(corner), z(corner)]));
-        let faces = [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]];
+        let faces = [
+            [0, 2, 3],
+            [0, 3, 1],
+            [4, 5, 7],
+            [4, 7, 6],
+            [0, 1, 5],
+            [0, 5, 4],
+            [2, 6, 7],
+            [2, 7, 3],
+            [0, 4, 6],
+            [0, 6, 2],
+            [1, 3, 7],
+            [1, 7, 5],
+        ];
         triangles.extend(faces.into_iter().flatten().map(|corner: u32| first + corner));
         of.extend([[joint as u16, 0, 0, 0]; 8]);
     }
@@ -572,7 +631,9 @@ fn a_skeleton_names_the_proposals_and_a_head_is_whole() {
     let proposals = deformed(&app, body).propose_regions().unwrap();
     let (head, region) = proposals.iter().find(|(proposal, _)| proposal.role == hf_bevy::hf::raw::HF_ROLE_HEAD).expect("a head");
     assert_eq!(deformed(&app, body).joint(head), Some(joints[2]));
-    assert!(head.pinned == 0 && proposals.iter().filter(|(one, _)| one.pinned == 1 && one.role == hf_bevy::hf::raw::HF_ROLE_FOOT).count() == 2);
+    assert!(
+        head.pinned == 0 && proposals.iter().filter(|(one, _)| one.pinned == 1 && one.role == hf_bevy::hf::raw::HF_ROLE_FOOT).count() == 2
+    );
     let own = deformed(&app, body).rest().len() as u32 / 9;
     assert_eq!(region.0.to_vec(), (2 * own..3 * own).collect::<Vec<_>>());
     let (point, region) = (DVec3::from_array(head.position).as_vec3(), region.clone());
