@@ -101,8 +101,8 @@ class SiteSolver {
   virtual void respond(const double* load, const double* values, std::int32_t channels, double* field,
                        double* flux) const;
 
-  // Returns an engine of hosts without sites on another core, for one of hosts; null for baselines. map: from the
-  // vertices of its core to those of the other; null: they are the same.
+  // An engine of hosts returns an engine without sites on another core. Baselines return null. map: from the vertices
+  // of this core to the vertices of the other core. Without a map both cores have the same vertices.
   virtual std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core,
                                          std::shared_ptr<const VertexMap> map = nullptr) const {
     (void)core, (void)map;

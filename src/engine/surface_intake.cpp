@@ -200,8 +200,8 @@ std::shared_ptr<const Geometry> read_link_edit(const hf_surface_edit_desc& desc,
   return before.geometry_of(edited_links(mesh, geometry.links.get(), removed, added, memory));
 }
 
-// Reads the triangles that go and come. Vertices keep their stiffness, copies have that of the copied vertex, and new
-// vertices have 1.
+// Reads the triangles that go and come. Vertices keep their stiffness, a copy has the stiffness of the copied vertex, and
+// new vertices have the stiffness 1.
 SurfaceEdit read_patch(const hf_patch_desc& desc, const Surface& before, const hf_surface_info& info) {
   require_zero(desc.reserved);
   const bool exchanges = desc.removed_triangle_count > 0 || desc.new_vertex_count > 0 || desc.new_triangle_count > 0;

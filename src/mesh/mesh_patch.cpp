@@ -218,7 +218,7 @@ class MeshPatcher {
   // The number of a vertex that stays.
   Index number_of(Index v) const noexcept { return out_.number.empty() ? v : out_.number[at(v)]; }
 
-  // Copies the large arrays beside one another, with room for what comes.
+  // Copies the large arrays on all threads. They have room for new vertices and triangles.
   void copy_arrays() {
     Mesh& mesh = out_.mesh;
     const auto copy = [](const auto& from, std::size_t size, auto& to) {
