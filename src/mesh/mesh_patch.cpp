@@ -256,7 +256,8 @@ class MeshPatcher {
     }
     put_isolated();
     mesh.returned.assign(before_.returned.begin(), before_.returned.end());
-    mesh.returned.append(given_.begin(), std::lower_bound(given_.begin(), given_.end(), static_cast<Index>(old)));
+    mesh.returned.append(given_.begin(), std::lower_bound(given_.begin(), given_.end(),
+                                                          static_cast<Index>(before_.report.vertex_count)));
     std::sort(mesh.returned.begin(), mesh.returned.end());
     for (std::size_t i = 0; i < copies_.size(); ++i) {
       const Index v = slots_[given_.size() + i];
