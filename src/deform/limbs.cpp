@@ -51,7 +51,7 @@ SymmetricMatrix part_of(const SymmetricMatrix& k, Span<const std::int32_t> verti
 Vector<std::int32_t> limb_of(const Core& core, const Reach& reach, const HandleFields& fields, std::int32_t handle,
                              Memory& memory) {
   const FieldColumn<const double> field = fields.of(handle);
-  const Vector<std::int32_t>& component = core.mesh.component;
+  const SharedVector<Index>& component = core.mesh.component;
   const std::size_t components = static_cast<std::size_t>(core.mesh.component_count());
   Vector<std::uint8_t> meant(components, 0, &memory);  // another handle moves the component too
   for (std::size_t c = 0; c < components; ++c) {

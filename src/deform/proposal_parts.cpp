@@ -31,7 +31,7 @@ Vector<std::int32_t> region_of(RegionSearch& search, const Candidate& candidate)
 
 // A candidate for a part on which none was found. Its place is the middle of the part.
 Candidate part_candidate(const Core& core, Span<const std::int32_t> vertices) {
-  const Vector<Vec3>& positions = core.mesh.positions;
+  const SharedVector<Vec3>& positions = core.mesh.positions;
   Vec3 sum;
   for (const std::int32_t v : vertices) sum = sum + positions[at(v)];
   Candidate out;

@@ -24,7 +24,7 @@ Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
   pieces.piece.assign(at(core.size()), none);
   for (const Index v : curve) pieces.piece[at(v)] = on_curve;
   const Vector<double> areas = vertex_areas(core.mesh, memory);
-  const Vector<Index>& piece_of = core.geometry->unlinked().mesh.component;
+  const SharedVector<Index>& piece_of = core.geometry->unlinked().mesh.component;
   const Index component = piece_of[at(curve[0])];
   Vector<Index> queue(&memory);
   for (Index start = 0; start < core.size(); ++start) {

@@ -12,7 +12,7 @@ namespace hf_inner {
 struct Unknowns {
   // Whether the two number their vertices alike. Then the unknowns are the vertices.
   static bool are_same(const Core& from, const Core& to) noexcept {
-    return from.mesh.given_of_inner.data() == to.mesh.given_of_inner.data();
+    return from.mesh.shares(to.mesh);
   }
   Unknowns(const Core& from, const Core& to);
   // The unknown that a vertex of `from` is.

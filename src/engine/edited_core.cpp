@@ -223,7 +223,7 @@ std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, SurfaceE
   if (from->field_kind != FieldKind::harmonic) return make_again(*from, std::move(edit));
   if (!edit.stiffness && edit.geometry == plain->geometry) return plain;
   const auto is_numbered_as = [&](const Core& core) {
-    return core.mesh.given_of_inner.data() == edit.geometry->mesh.given_of_inner.data();
+    return core.mesh.shares(edit.geometry->mesh);
   };
   std::shared_ptr<const PatchRows> patch;
   if (!is_numbered_as(*plain)) {

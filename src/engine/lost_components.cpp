@@ -16,7 +16,7 @@ constexpr double margin = 16;
 Vector<std::uint8_t> lost_components(const Core& core, const FactorOptions& options) {
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size()), components = core.ground.size();
-  const Vector<Index>& component = core.mesh.component;
+  const SharedVector<Index>& component = core.mesh.component;
   // Sorts the vertices by component, and numbers the vertices of each component.
   Vector<Index> start(components + 1, 0, &memory), vertex(n, &memory), place(n, &memory);
   for (std::size_t v = 0; v < n; ++v) ++start[at(component[v]) + 1];

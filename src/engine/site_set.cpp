@@ -221,7 +221,7 @@ void check_value(double value, std::uint32_t position, std::int32_t channel) {
 
 void SiteSet::take_core(const Core& before, const Core& core) {
   const Mesh &old = before.mesh, &mesh = core.mesh;
-  const bool same = old.given_of_inner.data() == mesh.given_of_inner.data();
+  const bool same = old.shares(mesh);
   const auto number = [&](std::int32_t v, std::size_t slot) {
     if (same) return v;
     const std::int32_t given = old.given_of_inner[at(v)];

@@ -15,7 +15,7 @@ namespace {
 // Calls work(component, begin, end) for every run of consecutive vertices of one component.
 template <class Work>
 void for_runs(const Core& core, Work&& work) {
-  const Vector<Index>& component = core.mesh.component;
+  const SharedVector<Index>& component = core.mesh.component;
   for (std::size_t begin = 0, end = 0; begin < component.size(); begin = end) {
     for (end = begin + 1; end < component.size() && component[end] == component[begin];) ++end;
     work(at(component[begin]), begin, end);
@@ -96,7 +96,7 @@ std::size_t search_levels(const Topology& topology, Index from, Index* level, In
 
 // Returns the vertex of the last level that is farthest from the start in space. Many may have that level, and which of
 // them the search finds last follows from the order of the vertices.
-Index last_vertex(const Vector<Vec3>& positions, Index from, const Index* level, const Index* queue,
+Index last_vertex(Span<const Vec3> positions, Index from, const Index* level, const Index* queue,
                   std::size_t count) {
   Index best = queue[count - 1];
   for (std::size_t i = count; i-- > 0 && level[at(queue[i])] == level[at(best)];) {

@@ -134,7 +134,7 @@ void ScalarField::take_engine(std::shared_ptr<SiteSolver> engine) {
 void ScalarField::move_to(std::shared_ptr<const Core> core) {
   const std::lock_guard<std::mutex> lock(guard_);
   std::shared_ptr<const VertexMap> map;
-  if (core->mesh.given_of_inner.data() != core_->mesh.given_of_inner.data())
+  if (!core->mesh.shares(core_->mesh))
     map = make_shared_in<VertexMap>(memory(), core_->mesh, core->mesh, memory());
   std::shared_ptr<SiteSolver> engine = engine_->on(core, map);
   if (!engine)

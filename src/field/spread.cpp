@@ -45,7 +45,7 @@ void grow_patch(const Topology& topology, Index patch, std::size_t begin, Vector
   }
 }
 
-Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<double>& areas, Index count,
+Patches make_patches(const Mesh& mesh, const Topology& topology, Span<const double> areas, Index count,
                      Memory& memory) {
   const std::size_t n = mesh.positions.size();
   Patches patches(memory);
@@ -159,7 +159,7 @@ class Search {
 
 // Finds the patch of every component that is farthest from the middle of its area. It does not depend on the order of
 // the vertices.
-void find_outermost(const Patches& patches, const Vector<Vec3>& positions, std::size_t components,
+void find_outermost(const Patches& patches, Span<const Vec3> positions, std::size_t components,
                     Vector<Index>& outermost, Memory& memory) {
   Vector<Vec3> middle(components, &memory);
   Vector<double> area(components, 0.0, &memory), most(components, -1.0, &memory);
@@ -180,7 +180,7 @@ void find_outermost(const Patches& patches, const Vector<Vec3>& positions, std::
 
 }  // namespace
 
-SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const Vector<double>& areas, Index count,
+SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, Span<const double> areas, Index count,
                              Memory& memory) {
   const std::size_t components = at(mesh.component_count());
   SpreadSamples samples(memory);

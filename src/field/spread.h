@@ -20,7 +20,7 @@ struct SpreadSamples {
   Vector<double> share;         // of the component's area that is nearest to the sample; sums to 1
 };
 
-SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, const Vector<double>& areas,
+SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, Span<const double> areas,
                              std::int32_t count, Memory& memory);
 
 }  // namespace hf_inner

@@ -18,7 +18,7 @@ EdgePaths::EdgePaths(const Mesh& mesh, const Topology& topology, Memory& memory)
 
 double EdgePaths::append(Index from, Index to, Vector<Index>& out) {
   if (from == to) return 0;
-  const Vector<Vec3>& position = mesh_.positions;
+  const SharedVector<Vec3>& position = mesh_.positions;
   Poller poller;
   double length = std::numeric_limits<double>::infinity();
   // The search runs backwards, so that `before` leads from the start to the end.

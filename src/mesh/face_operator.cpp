@@ -63,7 +63,7 @@ SymmetricMatrix mean(const SymmetricMatrix& a, const SymmetricMatrix& b, Memory&
 DelaunayOperator two_cuts(const Mesh& mesh, const Topology& topology, const Vector<double>& weights, bool with_areas,
                           Memory& memory, JobRunner* jobs) {
   DelaunayOperator out = delaunay_operator(mesh, topology, weights, with_areas, memory, jobs);
-  const Vector<std::uint8_t>& second = mesh.faces.second_cut;
+  const SharedVector<std::uint8_t>& second = mesh.faces.second_cut;
   if (std::find(second.begin(), second.end(), 1) == second.end()) return out;
   const Mesh other = with_second_cuts(mesh, memory);
   const Topology edges = Topology::make(other, memory, jobs);

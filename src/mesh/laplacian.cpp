@@ -215,7 +215,7 @@ void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory) {
   }
 }
 
-void confine_weights(SymmetricMatrix& matrix, const Vector<Index>& component, const Vector<std::uint8_t>& confined,
+void confine_weights(SymmetricMatrix& matrix, Span<const Index> component, const Vector<std::uint8_t>& confined,
                      double spread, Memory& memory) {
   struct Entry {
     Index component;

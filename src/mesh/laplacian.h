@@ -56,7 +56,7 @@ void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory);
 // digits than a double has, such as needle triangles with weights of 1e34 beside weights of 1. K times ones stays 0.
 // Fields there follow the edge graph more than the lengths, but stay within their site values. component: by vertex.
 // confined: by component, 1 to limit its weights.
-void confine_weights(SymmetricMatrix& matrix, const Vector<std::int32_t>& component,
+void confine_weights(SymmetricMatrix& matrix, Span<const std::int32_t> component,
                      const Vector<std::uint8_t>& confined, double spread, Memory& memory);
 
 // Returns the symmetric matrix K with K_ij = -w_ij and K_ii = sum_j w_ij. Each row sums to zero up to the rounding of

@@ -46,7 +46,7 @@ void snap_to_corner(const Mesh& mesh, const Index* corner, double within, double
 
 class LinkSearch {
  public:
-  LinkSearch(const Mesh& mesh, const Vector<double>& areas, const LinkOptions& options, Memory& memory, JobRunner* jobs,
+  LinkSearch(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, Memory& memory, JobRunner* jobs,
              Links& out)
       : mesh_(mesh),
         areas_(areas),
@@ -113,7 +113,7 @@ class LinkSearch {
   }
 
   const Mesh& mesh_;
-  const Vector<double>& areas_;
+  Span<const double> areas_;
   const LinkOptions& options_;
   Memory& memory_;
   JobRunner* jobs_;
@@ -507,7 +507,7 @@ void LinkSearch::find_below(Index piece, Vector<Contact>& best) const {
 
 }  // namespace
 
-void search_links(const Mesh& mesh, const Vector<double>& areas, const LinkOptions& options, Memory& memory,
+void search_links(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, Memory& memory,
                   JobRunner* jobs, Links& out) {
   if (mesh.component_count() > most_linked_pieces)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%d pieces; at most %d are linked automatically, so give a list of links",

@@ -14,7 +14,7 @@ namespace hf_inner {
 constexpr Index most_linked_pieces = 20000;
 
 // Appends links to out.links and marks light pieces in out.light. out.piece: by vertex.
-void search_links(const Mesh& mesh, const Vector<double>& areas, const LinkOptions& options, Memory& memory,
+void search_links(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, Memory& memory,
                   JobRunner* jobs, Links& out);
 
 }  // namespace hf_inner

@@ -83,7 +83,7 @@ void find_groups(Links& out, Memory& memory) {
   }
 }
 
-std::shared_ptr<const Links> make_links(const Mesh& mesh, const Vector<double>& areas, const LinkOptions& options,
+std::shared_ptr<const Links> make_links(const Mesh& mesh, Span<const double> areas, const LinkOptions& options,
                                         Memory& memory, JobRunner* jobs) {
   const std::shared_ptr<Links> made = make_shared_in<Links>(memory, memory);
   Links& out = *made;

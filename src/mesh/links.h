@@ -73,7 +73,7 @@ double rest_length(const Link& link, const Mesh& mesh) noexcept;
 
 // Finds or takes the links of a mesh. areas: by vertex. Throws HF_ERROR_TOO_LARGE above most_linked_pieces pieces, and
 // HF_ERROR_INVALID_ARGUMENT if the heavy and light vertices share a piece (index: position in `heavy`).
-std::shared_ptr<const Links> make_links(const Mesh& mesh, const Vector<double>& areas, const LinkOptions& options,
+std::shared_ptr<const Links> make_links(const Mesh& mesh, Span<const double> areas, const LinkOptions& options,
                                         Memory& memory, JobRunner* jobs);
 
 // Numbers the groups of linked pieces, and counts pieces without a link. Needs links, pieces and light ones.

@@ -275,6 +275,10 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
 
   poll();
   measure_triangles(mesh, mesh.report, jobs, memory);
+  mesh.positions.leave_room();
+  mesh.component.leave_room();
+  mesh.inner_of_given.leave_room();
+  mesh.given_of_inner.leave_room();
   return mesh;
 }
 

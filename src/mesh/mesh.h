@@ -101,6 +101,11 @@ struct Mesh {
   const std::int32_t* triangle(std::int32_t t) const noexcept {
     return corners.data() + std::size_t{3} * static_cast<std::size_t>(t);
   }
+  // Whether both have the same vertices and triangles, because one was made of the other and shares its arrays.
+  bool shares(const Mesh& other) const noexcept {
+    return given_of_inner.data() == other.given_of_inner.data() &&
+           given_of_inner.size() == other.given_of_inner.size() && corners.data() == other.corners.data();
+  }
   // Returns the inner vertex that is true and comes first in the caller's order, or none.
   template <class True>
   std::int32_t first_of_given(True&& is_true) const {

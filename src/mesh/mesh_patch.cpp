@@ -218,7 +218,10 @@ class MeshPatcher {
   // The number of a vertex that stays.
   Index number_of(Index v) const noexcept { return out_.number.empty() ? v : out_.number[at(v)]; }
 
-  // Copies the large arrays on all threads. They have room for new vertices and triangles.
+  // Whether an isolated vertex of the mesh before comes in.
+  bool takes_isolated() const noexcept { return !given_.empty() && at(given_.front()) < before_.inner_of_given.size(); }
+
+  // Copies the large arrays on all threads, or shares them, with room for new vertices and triangles.
   void copy_arrays() {
     Mesh& mesh = out_.mesh;
     const auto copy = [](const auto& from, std::size_t size, auto& to) {
@@ -230,15 +233,25 @@ class MeshPatcher {
     const std::size_t given = before_.inner_of_given.size() + patch_.positions.size() + copies_.size();
     const std::size_t triangles =
         std::max(before_.corners.size(), before_.corners.size() + added_.size() - 3 * removed_);
-    for_each(jobs_, 5, [&](std::uint32_t i) {
-      if (i == 0) copy(before_.corners, triangles, mesh.corners);
-      if (i == 1) copy(before_.positions, vertices, mesh.positions);
-      if (i == 2) copy(before_.inner_of_given, given, mesh.inner_of_given);
-      if (i == 3) copy(before_.given_of_inner, vertices, mesh.given_of_inner);
-      if (i == 4 && (removed_ > 0 || !added_.empty()))
+    const bool grows = out_.went.empty();  // numbers and places of the others stay
+    for_each(jobs_, 3, [&](std::uint32_t i) {
+      if (i == 0) {
+        copy(before_.corners, triangles, mesh.corners);
+      } else if (i == 1 && (removed_ > 0 || !added_.empty())) {
         copy(before_.triangle_of_given, before_.triangle_of_given.size() + added_.size() / 3, mesh.triangle_of_given);
+      } else if (i == 2 && !grows) {
+        copy(before_.positions, vertices, mesh.positions);
+        copy(before_.given_of_inner, vertices, mesh.given_of_inner);
+      } else if (i == 2) {
+        mesh.positions = before_.positions.grown(vertices, memory_);
+        mesh.given_of_inner = before_.given_of_inner.grown(vertices, memory_);
+      }
     });
     if (removed_ == 0 && added_.empty()) mesh.triangle_of_given = before_.triangle_of_given;  // shared
+    if (grows && !takes_isolated())
+      mesh.inner_of_given = before_.inner_of_given.grown(given, memory_);
+    else
+      copy(before_.inner_of_given, given, mesh.inner_of_given);
   }
 
   void put_vertices() {

@@ -63,10 +63,14 @@ void put_components(const Mesh& before, Span<const Index> fresh, PatchedMesh& ou
   for (const Index v : out.went) same = same && set_of[at(before.component[at(v)])] != Mesh::none;
   out.same_components = same;
   if (!same) return count_components(mesh, memory);
-  mesh.component.reserve(mesh.positions.size());
-  mesh.component.assign(before.component.begin(), before.component.end());
-  for (std::size_t v = 0; v < before_of.size(); ++v) mesh.component[v] = before.component[at(before_of[v])];
-  mesh.component.resize(mesh.positions.size());
+  if (out.went.empty()) {
+    mesh.component = before.component.grown(mesh.positions.size(), memory);
+  } else {
+    mesh.component.reserve(mesh.positions.size());
+    mesh.component.assign(before.component.begin(), before.component.end());
+    for (std::size_t v = 0; v < before_of.size(); ++v) mesh.component[v] = before.component[at(before_of[v])];
+    mesh.component.resize(mesh.positions.size());
+  }
   for (const Index v : fresh) mesh.component[at(v)] = of_set[at(sets.find(local(v)))];
 }
 

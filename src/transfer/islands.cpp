@@ -94,7 +94,7 @@ class PointGrid {
     }
   }
 
-  const Vector<Vec3>& positions_;
+  const SharedVector<Vec3>& positions_;
   Vec3 low_;
   double cell_size_ = 1;
   std::int32_t cells_ = 1;
