@@ -193,13 +193,8 @@ Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, co
 // make_operator returned.
 std::shared_ptr<const Core> on_root(std::shared_ptr<Core> root, const Vector<double>& unit) {
   const std::shared_ptr<Core> core = make_owner_in<Core>(root->memory, root->geometry);
-  core->field_kind = root->field_kind;
-  core->ordering = root->ordering;
+  core->take_options(*root);
   core->times = root->times;
-  core->flop_limit = root->flop_limit;
-  core->formed_valence = root->formed_valence;
-  core->changed_count = root->changed_count;
-  core->first_changed = root->first_changed;
   core->factor = root->factor;
   core->refinements = 1;
   core->inverse_mass.swap(root->inverse_mass);

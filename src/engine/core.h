@@ -75,6 +75,15 @@ struct Core {
   static std::shared_ptr<const Core> make(const MeshInput& input, const CoreOptions& options,
                                           std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs);
 
+  // Takes what `from` was made with, and which weights a rule set.
+  void take_options(const Core& from) noexcept {
+    field_kind = from.field_kind;
+    ordering = from.ordering;
+    flop_limit = from.flop_limit;
+    formed_valence = from.formed_valence;
+    changed_count = from.changed_count;
+    first_changed = from.first_changed;
+  }
   std::int32_t size() const noexcept { return mesh.vertex_count(); }
   // The unknowns of the factor: the vertices, and those that went since it was made (extended_factor.h).
   std::int32_t unknown_count() const noexcept { return factor ? factor->size() : size(); }

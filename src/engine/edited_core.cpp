@@ -102,12 +102,7 @@ std::shared_ptr<const Core> make_again(const Core& from, SurfaceEdit edit) {
 std::shared_ptr<Core> edited_copy(std::shared_ptr<const Core> plain, const Core& from, SurfaceEdit edit,
                                   std::shared_ptr<const PatchRows> patch) {
   const std::shared_ptr<Core> made = make_owner_in<Core>(plain->memory, std::move(edit.geometry));
-  made->field_kind = plain->field_kind;
-  made->ordering = plain->ordering;
-  made->flop_limit = plain->flop_limit;
-  made->formed_valence = plain->formed_valence;
-  made->changed_count = plain->changed_count;
-  made->first_changed = plain->first_changed;
+  made->take_options(*plain);
   made->is_long = plain->is_long;
   made->stiffness = std::move(edit.stiffness);
   made->patch = std::move(patch);
