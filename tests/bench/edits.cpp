@@ -230,6 +230,7 @@ void run_patches_on(const Mesh& mesh, const Run& run, const Solver& solver, doub
       moves.push_back(time_ms([&] { check(hf_solver_move_to(moved, made)); }));
       fields.push_back(time_ms([&] { check(hf_solve(moved, field.data(), 0, nullptr)); }));
       wholes.push_back(edits.back() + moves.back() + fields.back());
+      check(hf_solver_move_to(moved, solver.surface()));  // undone: every edit finds the same state
       hf_surface_destroy(made);
     }
     const double share = median(bytes) / solver.surface_statistics().memory_bytes;
