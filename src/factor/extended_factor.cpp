@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/index.h"
+#include "factor/dissection.h"
 
 namespace hf_inner {
 namespace {
@@ -26,6 +27,22 @@ class ExtendedPaths final : public PathGroup {
   };
   Vector<Entry> entries;  // by row
 };
+
+// The block of a matrix that belongs to some unknowns, ascending.
+SymmetricMatrix part_of(const SymmetricMatrix& matrix, Span<const Index> unknowns, Memory& memory) {
+  SymmetricMatrix part(memory);
+  part.column_start.push_back(0);
+  for (const Index v : unknowns) {
+    for (Index e = matrix.column_start[at(v)]; e < matrix.column_start[at(v) + 1]; ++e) {
+      const Index* const there = std::lower_bound(unknowns.begin(), unknowns.end(), matrix.row[at(e)]);
+      if (there == unknowns.end() || *there != matrix.row[at(e)]) continue;
+      part.row.push_back(static_cast<Index>(there - unknowns.begin()));
+      part.value.push_back(matrix.value[at(e)]);
+    }
+    part.column_start.push_back(static_cast<Index>(part.row.size()));
+  }
+  return part;
+}
 
 class ExtendedFactor final : public Factor {
  public:
@@ -137,9 +154,13 @@ class ExtendedFactor final : public Factor {
 std::shared_ptr<const Factor> ExtendedFactor::refactor(const SymmetricMatrix& matrix,
                                                        Span<const std::uint8_t> eliminated, Memory& memory,
                                                        JobRunner& jobs) const {
-  Vector<Index> order(&memory);  // new unknowns first: each has few neighbours
+  Vector<Index> fresh(&memory), order(&memory);
   for (Index i = base_->size(); i < size(); ++i)
-    if (order_[at(i)] < count_) order.push_back(order_[at(i)]);
+    if (order_[at(i)] < count_) fresh.push_back(order_[at(i)]);
+  std::sort(fresh.begin(), fresh.end());
+  Buffer<Index> place;  // the new unknowns come first: the rest of the tree stays
+  order_by_dissection(part_of(matrix, fresh, memory), {}, memory, jobs, place);
+  for (std::size_t i = 0; i < fresh.size(); ++i) order.push_back(fresh[at(place[i])]);
   for (Index i = 0; i < base_->size(); ++i)
     if (order_[at(i)] < count_) order.push_back(order_[at(i)]);
   return base_->refactor_in_order(matrix, order, eliminated, memory, jobs);
