@@ -340,17 +340,23 @@ void EditedFactor::form_rim(Span<const Index> unknowns, JobRunner& jobs) {
 void EditedFactor::factorise_inside(const MatrixChange& change, JobRunner& jobs) {
   Vector<Index> number(k_, -1, &memory_);  // in the inside, by position in `unknown`
   for (std::size_t i = 0; i < inside_; ++i) number[at(change.inside[i])] = static_cast<Index>(i);
+  const auto ascend = [](const Entry& a, const Entry& b) {
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  };
   const auto list = [&](const Vector<MatrixChange::Entry>& entries, bool is_change) {
+    Vector<Entry> out(&memory_);
     for (const MatrixChange::Entry& entry : entries) {
       const Index row = number[at(entry.row)], column = number[at(entry.column)];
       if (row < 0 || column < 0) continue;
-      entries_.push_back({row, column, is_change ? 0.0 : entry.value, is_change ? entry.value : 0.0});
+      out.push_back({row, column, is_change ? 0.0 : entry.value, is_change ? entry.value : 0.0});
     }
+    std::sort(out.begin(), out.end(), ascend);
+    return out;
   };
-  list(change.inside_entries, false);
-  list(change.entries, true);
-  std::sort(entries_.begin(), entries_.end(),
-            [](const Entry& a, const Entry& b) { return a.row != b.row ? a.row < b.row : a.column < b.column; });
+  // sorted apart and merged: std::sort takes its longest on one sorted list behind another
+  const Vector<Entry> before = list(change.inside_entries, false), changed = list(change.entries, true);
+  entries_.resize(before.size() + changed.size());
+  std::merge(before.begin(), before.end(), changed.begin(), changed.end(), entries_.begin(), ascend);
   std::size_t kept = 0;
   for (const Entry& entry : entries_) {
     Entry* const last = kept > 0 ? &entries_[kept - 1] : nullptr;
