@@ -65,7 +65,6 @@ class CurveTracer {
       const CurvePoint from = snapped(points_[i]), to = snapped(points_[(i + 1) % count]);
       put(place_of(from));
       poll();
-      require_room();
       if (!options_.closed && i + 1 == count) break;
       if (in_one_triangle(from, to)) continue;
       const ProgressRange range(static_cast<float>(i) / static_cast<float>(count),
@@ -87,11 +86,6 @@ class CurveTracer {
   }
 
  private:
-  void require_room() const {
-    if (curve_.place.size() > options_.most_places)
-      fail(HF_ERROR_TOO_LARGE, static_cast<std::uint32_t>(point_), "the line crosses more than %zu edges at point %d",
-           options_.most_places, point_);
-  }
   static bool equal(const PathPoint& p, const PathPoint& q) noexcept {
     if (p.a == Mesh::none || q.a == Mesh::none) return false;
     if (p.a == p.b || q.a == q.b) return p.a == q.a && p.b == q.b;
@@ -102,6 +96,10 @@ class CurveTracer {
     if (!curve_.place.empty() && equal(curve_.place.back(), place)) {
       curve_.point_of.back() = point_;
     } else {
+      if (curve_.place.size() == options_.most_places)
+        fail(HF_ERROR_TOO_LARGE, static_cast<std::uint32_t>(point_),
+             "the line has more than %zu points and crossings of edges after point %d; raise the limit, or cut less",
+             options_.most_places, point_);
       curve_.place.push_back(place);
       curve_.point_of.push_back(point_);
     }

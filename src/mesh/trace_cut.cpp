@@ -210,7 +210,8 @@ class CutTracer {
     std::size_t count = 0;
     auto piece = std::lower_bound(pieces_.begin(), pieces_.end(), Piece{0, 0, 0});
     for (const Index t : divided_) {
-      if (++count % reported == 0) report(most_divided * static_cast<float>(count) / static_cast<float>(divided_.size()));
+      if (++count % reported == 0)
+        report(most_divided * static_cast<float>(count) / static_cast<float>(divided_.size()));
       const Index* const v = mesh_.triangle(t);
       division_.begin(mesh_.positions[at(v[0])], mesh_.positions[at(v[1])], mesh_.positions[at(v[2])]);
       locals_.clear();
@@ -372,29 +373,37 @@ class CutTracer {
     for (std::size_t c = 3 * at(triangle);; ++c)
       if (corners_[c].vertex == global(p)) return number_[c];
   }
+  // A piece along a border has one side; the other vertex of its first point is then that of the piece before.
   void list_rims() {
     std::uint32_t before[2] = {HF_NO_INDEX, HF_NO_INDEX};
+    Index first[2] = {Mesh::none, Mesh::none};
     for (Index p = 0; p < piece_count(); ++p) {
       const Index q = after(p);
       Index side[2] = {Mesh::none, Mesh::none};  // triangles on the left and on the right
-      for (const Wing& wing : wings_at(p)) {
+      for (const Wing& wing : wings_at(p))
         if (wing.next == global(q)) side[side[0] == Mesh::none ? 0 : 1] = wing.triangle;
-      }
-      for (const Wing& wing : wings_at(p)) {
+      for (const Wing& wing : wings_at(p))
         if (wing.last == global(q)) side[side[1] == Mesh::none ? 1 : 0] = wing.triangle;
+      std::uint32_t here[2] = {HF_NO_INDEX, HF_NO_INDEX};
+      bool turned = false;  // triangles may be turned round: the left stays where it was
+      for (int s = 0; s < 2; ++s) {
+        if (side[s] == Mesh::none) continue;
+        here[s] = number_at(side[s], p);
+        turned = turned || (here[s] == before[1 - s] && here[s] != before[s]);
       }
-      for (int s = 0; s < 2; ++s)
-        if (side[s] == Mesh::none) side[s] = side[1 - s];
-      std::uint32_t here[2] = {number_at(side[0], p), number_at(side[1], p)};
-      // triangles may be turned round: the left stays where it was
-      if (here[0] != here[1] && here[0] == before[1] && here[1] == before[0]) {
+      if (turned) {
         std::swap(side[0], side[1]);
         std::swap(here[0], here[1]);
       }
+      if (p == 0) std::copy_n(side, 2, first);
+      for (int s = 0; s < 2; ++s)
+        if (here[s] == HF_NO_INDEX) here[s] = before[s] != HF_NO_INDEX ? before[s] : here[1 - s];
       out_.rims.insert(out_.rims.end(), here, here + 2);
-      for (int s = 0; s < 2; ++s) before[s] = number_at(side[s], q);
+      for (int s = 0; s < 2; ++s) before[s] = number_at(side[s] != Mesh::none ? side[s] : side[1 - s], q);
     }
     if (!line_.closed) out_.rims.insert(out_.rims.end(), before, before + 2);
+    for (std::size_t s = 0; line_.closed && s < 2; ++s)
+      if (first[s] == Mesh::none) out_.rims[s] = before[s];
   }
 
   const Mesh& mesh_;

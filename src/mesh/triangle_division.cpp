@@ -20,7 +20,7 @@ void TriangleDivision::begin(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 p = a - c, q = b - c;
   const double length = norm(q);
   const double along = length > 0 ? dot(p, q) / length : 0.0;
-  corner_[0] = {along, std::sqrt(std::max(0.0, dot(p, p) - along * along))};
+  corner_[0] = {along, -std::sqrt(std::max(0.0, dot(p, p) - along * along))};
   corner_[1] = {length, 0};
   plane_.assign({corner_[0], corner_[1], {0, 0}});
   at_.assign(3, 0);

@@ -2,20 +2,20 @@
  * hf_surface_create makes of the same triangles. */
 #include "bad_scene.h"
 
-enum { AROUND = 12, RINGS = 18, VERTICES = AROUND * RINGS, ROOM = 4000 };
+enum { AROUND = 12, RINGS = 18, VERTICES = AROUND * RINGS, SPACE = 4000 };
 
 /* The mesh of a host that cuts it. A triangle that went has NO_INDEX. */
 typedef struct Host {
   uint32_t vertex_count, triangle_count;
-  double positions[3 * ROOM];
-  uint32_t triangles[3 * ROOM];
+  double positions[3 * SPACE];
+  uint32_t triangles[3 * SPACE];
 } Host;
 
 /* The arrays of one cut. */
 typedef struct Arrays {
   hf_cut cut;
-  uint32_t removed[ROOM], triangles[3 * ROOM], corners[3 * ROOM], sources[ROOM], rims[2 * ROOM];
-  double positions[3 * ROOM], barycentrics[3 * ROOM], weights[9 * ROOM];
+  uint32_t removed[SPACE], triangles[3 * SPACE], corners[3 * SPACE], sources[SPACE], rims[2 * SPACE];
+  double positions[3 * SPACE], barycentrics[3 * SPACE], weights[9 * SPACE];
 } Arrays;
 
 static Host host;
@@ -29,7 +29,7 @@ static void take(const Surface* mesh) {
   memcpy(host.triangles, mesh->triangles, 12 * (size_t)mesh->triangle_count);
 }
 static hf_surface fresh_of_host(void) {
-  static uint32_t triangles[3 * ROOM];
+  static uint32_t triangles[3 * SPACE];
   uint32_t count = 0;
   for (uint32_t t = 0; t < host.triangle_count; ++t) {
     if (host.triangles[3 * t] == NO_INDEX) continue;
@@ -52,7 +52,7 @@ static hf_cut_desc line_of(uint32_t count, const hf_place* places) {
 static hf_result trace(hf_surface surface, const hf_cut_desc* desc) {
   arrays.cut = HF_INIT(hf_cut);
   hf_cut* const c = &arrays.cut;
-  c->removed_triangle_capacity = c->new_vertex_capacity = c->new_triangle_capacity = c->rim_capacity = ROOM;
+  c->removed_triangle_capacity = c->new_vertex_capacity = c->new_triangle_capacity = c->rim_capacity = SPACE;
   c->removed_triangles = arrays.removed;
   c->new_positions = arrays.positions;
   c->new_triangles = arrays.triangles;
@@ -272,7 +272,6 @@ static void good(void) {
 }
 #define GOOD() good()
 #define UNCHANGED() (arrays.cut.new_vertex_count == 0)
-#define CUT hf_surface_trace_cut(body, &desc, &arrays.cut)
 static void give(uint32_t count, const hf_place* list) {
   memcpy(places, list, count * sizeof *list);
   desc.point_count = count;
@@ -284,34 +283,49 @@ static void lines_that_cannot_be_cut_are_refused(void** state) {
   body = tube();
   assert_ok(hf_progress_create(&progress));
   const uint32_t n = NO_INDEX;
-  ROW("one point", HF_ERROR_EMPTY, 1, desc.point_count = 1, CUT);
-  ROW("no points", HF_ERROR_NULL_POINTER, n, desc.places = NULL, CUT);
-  ROW("two lists", HF_ERROR_INVALID_ARGUMENT, n, desc.points = arrays.positions, CUT);
-  ROW("reserved", HF_ERROR_INVALID_DESC, n, desc.reserved = 1, CUT);
-  ROW("reserved", HF_ERROR_INVALID_DESC, n, arrays.cut.reserved = 1, CUT);
-  ROW("points without end", HF_ERROR_TOO_LARGE, n, desc.point_count = 10000001, CUT);
-  ROW("a snap share below 1e-6", HF_ERROR_INVALID_ARGUMENT, n, desc.snap_share = 1e-7, CUT);
-  ROW("a snap share of a half", HF_ERROR_INVALID_ARGUMENT, n, desc.snap_share = 0.5, CUT);
-  ROW("a snap share of NaN", HF_ERROR_NON_FINITE, n, desc.snap_share = NAN, CUT);
-  ROW("a corner that is no vertex", HF_ERROR_OUT_OF_RANGE, 1, places[1].corners[0] = VERTICES, CUT);
-  ROW("weights of sum 2", HF_ERROR_INVALID_ARGUMENT, 1, places[1].barycentrics[0] += 1, CUT);
-  ROW("a weight of NaN", HF_ERROR_NON_FINITE, 0, places[0].barycentrics[0] = NAN, CUT);
-  ROW("corners of no triangle", HF_ERROR_INVALID_ARGUMENT, 1, places[1].corners[0] = 0, CUT);
-  ROW("one place", HF_ERROR_EMPTY, n, places[1] = places[0], CUT);
-  ROW("nothing between two ends in a triangle", HF_ERROR_EMPTY, n, places[1] = in_triangle(60, 0.5, 0.3), CUT);
-  ROW("one edge inside", HF_ERROR_EMPTY, n, (places[0] = at(50), places[1] = at(51)), CUT);
-  ROW("more crossings than the limit", HF_ERROR_TOO_LARGE, 0, desc.crossing_limit = 3, CUT);
+  ROW("one point", HF_ERROR_EMPTY, 1, desc.point_count = 1, hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("no points", HF_ERROR_NULL_POINTER, n, desc.places = NULL, hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("two lists", HF_ERROR_INVALID_ARGUMENT, n, desc.points = arrays.positions,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("reserved", HF_ERROR_INVALID_DESC, n, desc.reserved = 1, hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("reserved", HF_ERROR_INVALID_DESC, n, arrays.cut.reserved = 1, hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("points without end", HF_ERROR_TOO_LARGE, n, desc.point_count = 10000001,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("a snap share below 1e-6", HF_ERROR_INVALID_ARGUMENT, n, desc.snap_share = 1e-7,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("a snap share of a half", HF_ERROR_INVALID_ARGUMENT, n, desc.snap_share = 0.5,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("a snap share of NaN", HF_ERROR_NON_FINITE, n, desc.snap_share = NAN,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("a corner that is no vertex", HF_ERROR_OUT_OF_RANGE, 1, places[1].corners[0] = VERTICES,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("weights of sum 2", HF_ERROR_INVALID_ARGUMENT, 1, places[1].barycentrics[0] += 1,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("a weight of NaN", HF_ERROR_NON_FINITE, 0, places[0].barycentrics[0] = NAN,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("corners of no triangle", HF_ERROR_INVALID_ARGUMENT, 1, places[1].corners[0] = 0,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("one place", HF_ERROR_EMPTY, n, places[1] = places[0], hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("nothing between two ends in a triangle", HF_ERROR_EMPTY, n, places[1] = in_triangle(60, 0.5, 0.3),
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("one edge inside", HF_ERROR_EMPTY, n, (places[0] = at(50), places[1] = at(51)),
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
+  ROW("more crossings than the limit", HF_ERROR_TOO_LARGE, 0, desc.crossing_limit = 3,
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
   const hf_place eight[4] = {in_triangle(60, 0.3, 0.3), in_triangle(152, 0.3, 0.3), in_triangle(150, 0.3, 0.3),
                              in_triangle(62, 0.3, 0.3)};
-  ROW("a line that crosses itself", HF_ERROR_CONFLICT, 2, give(4, eight), CUT);
+  ROW("a line that crosses itself", HF_ERROR_CONFLICT, 2, give(4, eight),
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
   const hf_place small[4] = {in_triangle(60, 0.6, 0.2), in_triangle(60, 0.2, 0.6), in_triangle(60, 0.2, 0.2),
                              in_triangle(60, 0.5, 0.4)};
-  ROW("a crossing inside one triangle", HF_ERROR_CONFLICT, 2, give(4, small), CUT);
+  ROW("a crossing inside one triangle", HF_ERROR_CONFLICT, 2, give(4, small),
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
   const hf_place edge[4] = {at(50), at(52), at(51), at(51 + AROUND)};
-  ROW("an edge twice", HF_ERROR_CONFLICT, 1, give(4, edge), CUT);
+  ROW("an edge twice", HF_ERROR_CONFLICT, 1, give(4, edge), hf_surface_trace_cut(body, &desc, &arrays.cut));
   ROW("no out", HF_ERROR_NULL_POINTER, n, (void)0, hf_surface_trace_cut(body, &desc, NULL));
   ROW("no desc", HF_ERROR_NULL_POINTER, n, (void)0, hf_surface_trace_cut(body, NULL, &arrays.cut));
-  ROW("a cancelled cut", HF_ERROR_CANCELLED, n, (desc.progress = progress, hf_progress_cancel(progress)), CUT);
+  ROW("a cancelled cut", HF_ERROR_CANCELLED, n, (desc.progress = progress, hf_progress_cancel(progress)),
+      hf_surface_trace_cut(body, &desc, &arrays.cut));
   /* the seam's sheet has an island, and the line cannot reach it */
   hf_place island[3] = {at(CUT_LEFT), at(CUT_LEFT + 1), at(CUT_ISLAND)};
   ROW("a place in another component", HF_ERROR_NOT_FOUND, 1, give(3, island),
@@ -349,7 +363,7 @@ static void polygons_and_doubled_triangles_are_refused(void** state) {
   make_desc.triangles = HF_ARRAY(triangles, 5);
   assert_ok(hf_surface_create(&make_desc, &surface));
   assert_code(HF_ERROR_UNSUPPORTED, hf_surface_trace_cut(surface, &line, &cut));
-  hf_error_detail detail = HF_INIT(hf_error_detail);
+  hf_error_detail detail;
   assert_ok(hf_error_get_detail(&detail));
   assert_int_equal(detail.index, 3);
   hf_surface_destroy(surface);

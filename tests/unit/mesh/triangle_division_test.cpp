@@ -80,7 +80,8 @@ TEST(TriangleDivision, LinesBecomeEdgesUnlessTheyCross) {
     const auto n = static_cast<Index>(division.points.size());
     std::vector<std::pair<Index, Index>> lines;
     for (int i = 0; i < 12; ++i) {
-      const Index p = static_cast<Index>(random() % static_cast<unsigned>(n)), q = static_cast<Index>(random() % static_cast<unsigned>(n));
+      const Index p = static_cast<Index>(random() % static_cast<unsigned>(n)),
+                  q = static_cast<Index>(random() % static_cast<unsigned>(n));
       if (p == q) continue;
       const GridPoint &x = division.points[at(p)], &y = division.points[at(q)];
       bool free = true;
