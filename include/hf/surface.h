@@ -528,8 +528,8 @@ typedef struct hf_cut_desc {
   hf_progress progress;     /* NULL, or an object to poll and cancel through */
 } hf_cut_desc;
 
-/* A cut as triangles that go and come. The first three arrays fit hf_patch_desc. New vertices follow those of your
- * mesh, and new triangles its triangles. The arrays are yours: each is NULL or as large as its capacity.
+/* A cut as triangles that go and come. The first three arrays fit hf_patch_desc. New vertices and triangles
+ * have the numbers after the last ones of your mesh. The arrays are yours: each is NULL or as large as its capacity.
  *
  * More than 16 fields: they are the arrays of one patch, and their counts. */
 typedef struct hf_cut {

@@ -1,7 +1,7 @@
 // The line of a knife on a mesh: vertices, points on edges and points in triangles, each two in a row in one triangle.
 //
 // The paths between the given points are shortest paths (surface_curve.h). Points near vertices and edges are moved
-// onto them. All places become whole numbers (triangle_division.h), so what follows needs no tolerance.
+// onto them. All places become whole numbers (triangle_division.h), so later steps need no tolerance.
 #pragma once
 #include "mesh/surface_curve.h"
 #include "mesh/triangle_division.h"
@@ -11,7 +11,7 @@ namespace hf_inner {
 // A point of a line: a vertex, else a point on an edge, else a point in a triangle. The other two are Mesh::none.
 struct LinePoint {
   std::int32_t vertex = Mesh::none, edge = Mesh::none, triangle = Mesh::none;
-  GridPoint in{0, 0};        // on an edge, `a` is the weight of its second vertex; in a triangle, those of its corners
+  GridPoint in{0, 0};        // on an edge, `a` is the weight of its second vertex; in a triangle, `a` and `b` are of its corners
   std::int32_t segment = 0;  // the given point whose path it begins or lies on
   bool given = false;        // one of the given points
 };

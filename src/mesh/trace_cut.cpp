@@ -373,7 +373,7 @@ class CutTracer {
     for (std::size_t c = 3 * at(triangle);; ++c)
       if (corners_[c].vertex == global(p)) return number_[c];
   }
-  // A piece along a border has one side; the other vertex of its first point is then that of the piece before.
+  // A piece along a border has one side. The vertex on the other side is then the one of the piece before.
   void list_rims() {
     std::uint32_t before[2] = {HF_NO_INDEX, HF_NO_INDEX};
     Index first[2] = {Mesh::none, Mesh::none};
