@@ -716,8 +716,8 @@ struct WeightsMirrorOptions {
   hf_weights_mirror_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// A cut as triangles that go and come. The first three arrays fit Patch. New vertices follow those of your mesh, and
-// new triangles its triangles. The arrays are yours: each is none or as large as its capacity.
+// A cut as triangles that go and come. The first three arrays fit Patch. New vertices and triangles have the numbers
+// after the last ones of your mesh. The arrays are yours: each is none or as large as its capacity.
 struct Cut {
   // `[removed_triangle_capacity]` triangles of your mesh, ascending
   std::vector<uint32_t> removed_triangles;
@@ -725,7 +725,7 @@ struct Cut {
   std::vector<double> new_positions;
   // `[new_triangle_capacity x 3]` vertices of your mesh, the first of welded copies, and new ones
   std::vector<uint32_t> new_triangles;
-  // `[new_vertex_capacity x 3]` vertices of your mesh between which the new vertex lies: mix what they have, as skin
+  // `[new_vertex_capacity x 3]` vertices of your mesh; the new vertex lies between them. Mix their attributes, as skin
   // weights. HF_NO_INDEX where a weight is 0
   std::vector<uint32_t> vertex_corners;
   // `[new_vertex_capacity x 3]` their weights, of sum 1. A single 1 copies a vertex
@@ -736,7 +736,7 @@ struct Cut {
   // for what corners have, as UVs at seams
   std::vector<double> corner_barycentrics;
   // `[rim_capacity x 2]` along the line: the vertex on its left and that on its right; one and the same where the line
-  // ends inside the surface
+  // ends inside the surface. At a border between its ends: those after it
   std::vector<uint32_t> rim_vertices;
 };
 

@@ -547,14 +547,15 @@ typedef struct hf_cut {
   double* new_positions;              /* [new_vertex_capacity][3] in the unit of your mesh */
   uint32_t* new_triangles;     /* [new_triangle_capacity][3] vertices of your mesh, the first of welded copies, and
                                   new ones */
-  uint32_t* vertex_corners;    /* [new_vertex_capacity][3] vertices of your mesh between which the new vertex lies:
-                                  mix what they have, as skin weights. HF_NO_INDEX where a weight is 0 */
+  uint32_t* vertex_corners;    /* [new_vertex_capacity][3] vertices of your mesh; the new vertex lies between
+                                  them. Mix their attributes, as skin weights. HF_NO_INDEX where a weight is 0 */
   double* vertex_barycentrics; /* [new_vertex_capacity][3] their weights, of sum 1. A single 1 copies a vertex */
   uint32_t* source_triangles;  /* [new_triangle_capacity] the removed triangle that each new one is a part of */
   double* corner_barycentrics; /* [new_triangle_capacity][3][3] three weights for each corner of a new triangle, of
                                   the corners of its source: for what corners have, as UVs at seams */
   uint32_t* rim_vertices;      /* [rim_capacity][2] along the line: the vertex on its left and that on its right;
-                                  one and the same where the line ends inside the surface */
+                                  one and the same where the line ends inside the surface. At a
+                                  border between its ends: those after it */
 } hf_cut;
 
 /* Turns a line on the surface into a cut through triangles. Give the arrays to hf_surface_edit as a patch, and change
@@ -566,7 +567,7 @@ typedef struct hf_cut {
  * a Delaunay triangulation of it. Points are whole multiples of 2^-29 of an edge. On a mesh whose triangles are turned
  * alike, left is left for a viewer who looks at the outside along the line. New vertices have the stiffness 1.
  *
- * Cost: that of shortest paths between points that lie in different triangles, and a pass over the vertices. Errors:
+ * Cost: a shortest path for each two points in different triangles, and a pass over the vertices. Errors:
  * HF_ERROR_EMPTY (fewer than 2 points, no length, or nothing is parted), HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE,
  * HF_ERROR_INVALID_ARGUMENT (snap_share; isolated vertex, barycentrics, corners of no triangle: index = point),
  * HF_ERROR_TOO_LARGE (a point two boxes or more away, index = point; too many points or crossings),

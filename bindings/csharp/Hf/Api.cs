@@ -1814,8 +1814,9 @@ namespace Hf
         }
     }
 
-    /// <summary>A cut as triangles that go and come. The first three arrays fit PatchDesc. New vertices follow those of your
-    /// mesh, and new triangles its triangles. The arrays are yours: each is null or as large as its capacity.</summary>
+    /// <summary>A cut as triangles that go and come. The first three arrays fit PatchDesc. New vertices and triangles have
+    /// the numbers after the last ones of your mesh. The arrays are yours: each is null or as large as its
+    /// capacity.</summary>
     public sealed class Cut
     {
         /// <summary>[removedTriangleCapacity] triangles of your mesh, ascending</summary>
@@ -1824,8 +1825,8 @@ namespace Hf
         public double[] NewPositions;
         /// <summary>[newTriangleCapacity x 3] vertices of your mesh, the first of welded copies, and new ones</summary>
         public uint[] NewTriangles;
-        /// <summary>[newVertexCapacity x 3] vertices of your mesh between which the new vertex lies: mix what they have, as
-        /// skin weights. uint.MaxValue where a weight is 0</summary>
+        /// <summary>[newVertexCapacity x 3] vertices of your mesh; the new vertex lies between them. Mix their attributes,
+        /// as skin weights. uint.MaxValue where a weight is 0</summary>
         public uint[] VertexCorners;
         /// <summary>[newVertexCapacity x 3] their weights, of sum 1. A single 1 copies a vertex</summary>
         public double[] VertexBarycentrics;
@@ -1835,7 +1836,7 @@ namespace Hf
         /// source: for what corners have, as UVs at seams</summary>
         public double[] CornerBarycentrics;
         /// <summary>[rimCapacity x 2] along the line: the vertex on its left and that on its right; one and the same where
-        /// the line ends inside the surface</summary>
+        /// the line ends inside the surface. At a border between its ends: those after it</summary>
         public uint[] RimVertices;
     }
 

@@ -246,8 +246,8 @@ export interface Place {
 }
 
 /**
- * A cut as triangles that go and come. The first three arrays fit hf_patch_desc. New vertices follow those of your
- * mesh, and new triangles its triangles. The arrays are yours: each is null or as large as its capacity.
+ * A cut as triangles that go and come. The first three arrays fit hf_patch_desc. New vertices and triangles have
+ * the numbers after the last ones of your mesh. The arrays are yours: each is null or as large as its capacity.
  */
 export interface Cut {
   removedTriangleCount: number;
@@ -262,7 +262,7 @@ export interface Cut {
   /** [newTriangleCapacity x 3] vertices of your mesh, the first of welded copies, and new ones */
   newTriangles: Uint32Array;
   /**
-   * [newVertexCapacity x 3] vertices of your mesh between which the new vertex lies: mix what they have, as skin
+   * [newVertexCapacity x 3] vertices of your mesh; the new vertex lies between them. Mix their attributes, as skin
    * weights. constants.HF_NO_INDEX where a weight is 0
    */
   vertexCorners: Uint32Array;
@@ -277,7 +277,7 @@ export interface Cut {
   cornerBarycentrics: Float64Array;
   /**
    * [rimCapacity x 2] along the line: the vertex on its left and that on its right; one and the same where the
-   * line ends inside the surface
+   * line ends inside the surface. At a border between its ends: those after it
    */
   rimVertices: Uint32Array;
 }

@@ -486,8 +486,8 @@ class MirrorPairing(IntEnum):
 
 
 class Cut(NamedTuple):
-    """A cut as triangles that go and come. The first three arrays fit hf_patch_desc. New vertices follow those of your
-    mesh, and new triangles its triangles. The arrays are yours: each is None or as large as its capacity.
+    """A cut as triangles that go and come. The first three arrays fit hf_patch_desc. New vertices and triangles have the
+    numbers after the last ones of your mesh. The arrays are yours: each is None or as large as its capacity.
     """
 
     removed_triangles: np.ndarray
@@ -497,7 +497,7 @@ class Cut(NamedTuple):
     new_triangles: np.ndarray
     """(new_triangle_capacity, 3) vertices of your mesh, the first of welded copies, and new ones"""
     vertex_corners: np.ndarray
-    """(new_vertex_capacity, 3) vertices of your mesh between which the new vertex lies: mix what they have, as skin
+    """(new_vertex_capacity, 3) vertices of your mesh; the new vertex lies between them. Mix their attributes, as skin
     weights. NO_INDEX where a weight is 0
     """
     vertex_barycentrics: np.ndarray
@@ -510,7 +510,7 @@ class Cut(NamedTuple):
     """
     rim_vertices: np.ndarray
     """(rim_capacity, 2) along the line: the vertex on its left and that on its right; one and the same where the line
-    ends inside the surface
+    ends inside the surface. At a border between its ends: those after it
     """
 
 

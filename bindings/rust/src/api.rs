@@ -1431,8 +1431,8 @@ impl<'a> WeightsMirrorOptions<'a> {
     }
 }
 
-/// A cut as triangles that go and come. The first three arrays fit [`Patch`]. New vertices follow those of your mesh, and
-/// new triangles its triangles. The arrays are yours: each is `None` or as large as its capacity.
+/// A cut as triangles that go and come. The first three arrays fit [`Patch`]. New vertices and triangles have the numbers
+/// after the last ones of your mesh. The arrays are yours: each is `None` or as large as its capacity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cut {
     /// `[removed_triangle_capacity]` triangles of your mesh, ascending
@@ -1441,7 +1441,7 @@ pub struct Cut {
     pub new_positions: Vec<f64>,
     /// `[new_triangle_capacity x 3]` vertices of your mesh, the first of welded copies, and new ones
     pub new_triangles: Vec<u32>,
-    /// `[new_vertex_capacity x 3]` vertices of your mesh between which the new vertex lies: mix what they have, as skin
+    /// `[new_vertex_capacity x 3]` vertices of your mesh; the new vertex lies between them. Mix their attributes, as skin
     /// weights. [`raw::HF_NO_INDEX`] where a weight is 0
     pub vertex_corners: Vec<u32>,
     /// `[new_vertex_capacity x 3]` their weights, of sum 1. A single 1 copies a vertex
@@ -1452,7 +1452,7 @@ pub struct Cut {
     /// for what corners have, as UVs at seams
     pub corner_barycentrics: Vec<f64>,
     /// `[rim_capacity x 2]` along the line: the vertex on its left and that on its right; one and the same where the line
-    /// ends inside the surface
+    /// ends inside the surface. At a border between its ends: those after it
     pub rim_vertices: Vec<u32>,
 }
 

@@ -167,12 +167,23 @@ PlainMesh check(const Shape& shape, const TracedCut& cut, bool closed = false) {
     for (const std::uint32_t v : edge) places(v, on);
     return on.size() == 2 && before.border.count({*on.begin(), *on.rbegin()}) > 0;
   };
+  // Where a line touches a border between its ends, the border parts one side: its vertices there are of the next
+  // piece.
+  std::set<std::uint32_t> on_border;
+  for (const Edge& edge : before.border) on_border.insert(edge.begin(), edge.end());
+  const auto touches = [&](std::uint32_t v) {
+    std::set<std::uint32_t> on;
+    places(v, on);
+    return (on.size() == 1 && on_border.count(*on.begin()) > 0) ||
+           (on.size() == 2 && before.border.count({*on.begin(), *on.rbegin()}) > 0);
+  };
   std::set<Edge> rims;
   const std::size_t points = cut.rims.size() / 2;
   for (std::size_t i = 0; i + !closed < points; ++i) {
     const std::uint32_t* const here = &cut.rims[2 * i];
     const std::uint32_t* const next = &cut.rims[2 * ((i + 1) % points)];
     const bool along_border = is_on_border({here[0], next[0]});
+    if (touches(next[0]) && (closed || i + 2 < points)) continue;
     std::uint32_t open = 0;
     for (int s = 0; s < 2; ++s) {
       rims.insert(ordered(here[s], next[s]));
@@ -188,7 +199,7 @@ PlainMesh check(const Shape& shape, const TracedCut& cut, bool closed = false) {
     EXPECT_EQ(now.directed.count({next[1], here[1]}), 1u) << i;
   }
   for (const Edge& edge : now.border) {
-    if (before.border.count(edge) > 0 || rims.count(edge) > 0) continue;
+    if (before.border.count(edge) > 0 || rims.count(edge) > 0 || touches(edge[0]) || touches(edge[1])) continue;
     EXPECT_TRUE(is_on_border(edge)) << edge[0] << ", " << edge[1];
   }
   // the library takes it
@@ -254,19 +265,6 @@ TEST(TraceCut, RandomLinesKeepTheSurfaceOrAreRefused) {
         }
         ++refused;
       }
-      if (HasFailure()) {
-        for (const CurvePoint& p : line)
-          std::printf("%d %d %d  %.17g %.17g %.17g\n", p.corner[0], p.corner[1], p.corner[2], p.weight[0], p.weight[1],
-                      p.weight[2]);
-        const CutLine made =
-            cut_line(shape.mesh, shape.topology, {line.data(), line.size()}, {share, 1000000}, shape.memory);
-        for (const LinePoint& p : made.points)
-          std::printf("v %d e %d (%d %d) t %d seg %d given %d\n", p.vertex, p.edge,
-                      p.edge < 0 ? -1 : shape.topology.first(p.edge), p.edge < 0 ? -1 : shape.topology.second(p.edge),
-                      p.triangle, p.segment, p.given);
-        const TracedCut cut = shape.cut(line, share);
-        for (std::size_t i = 0; i < cut.rims.size(); i += 2) std::printf("%u %u\n", cut.rims[i], cut.rims[i + 1]);
-      }
       ASSERT_FALSE(HasFailure()) << plain.vertex_count() << " vertices, round " << round;
     }
   }
@@ -274,7 +272,6 @@ TEST(TraceCut, RandomLinesKeepTheSurfaceOrAreRefused) {
   std::printf("%d cut, %d refused\n", made, refused);
 }
 
-// Weights of a place in triangle t of a mesh whose centre line is cut.
 TEST(TraceCut, LinesPartWhatTheyShould) {
   // a closed line on a sphere: two discs
   const Shape ball(hf_test::ball(3, 1, {0, 0, 0}));
