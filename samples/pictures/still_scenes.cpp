@@ -78,7 +78,8 @@ Picture draw_cut(const Body& body, int width, int height) {
   drawn.positions = body.mesh.positions;
   drawn.positions.insert(drawn.positions.end(), cut.new_positions.begin(), cut.new_positions.end());
   for (size_t t = 0; t < body.mesh.triangles.size() / 3; ++t) {
-    if (std::binary_search(cut.removed_triangles.begin(), cut.removed_triangles.end(), static_cast<uint32_t>(t))) continue;
+    if (std::binary_search(cut.removed_triangles.begin(), cut.removed_triangles.end(), static_cast<uint32_t>(t)))
+      continue;
     drawn.triangles.insert(drawn.triangles.end(), &body.mesh.triangles[3 * t], &body.mesh.triangles[3 * t] + 3);
   }
   drawn.triangles.insert(drawn.triangles.end(), cut.new_triangles.begin(), cut.new_triangles.end());
@@ -91,7 +92,8 @@ Picture draw_cut(const Body& body, int width, int height) {
   Polyline line;
   line.width = 3;
   line.color = {0.75, 0.08, 0.08};
-  for (size_t i = 0; i < cut.rim_vertices.size(); i += 2) line.points.push_back(point_of(drawn.positions, cut.rim_vertices[i]));
+  for (size_t i = 0; i < cut.rim_vertices.size(); i += 2)
+    line.points.push_back(point_of(drawn.positions, cut.rim_vertices[i]));
   marks.lines.push_back(line);
   View view = side_view(width, height);
   view.fixed_box = false;

@@ -231,8 +231,9 @@ Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface sur
     cut.corner_barycentrics = weights.data();
     cut.source_triangles = sources.data();
     check(hf_surface_trace_cut(surface, &line, &cut));
-    edit_surface({{"as", step["as"]}, {"removed_triangles", gone}, {"new_positions", positions}, {"new_triangles", corners}},
-                 surface);
+    edit_surface(
+        {{"as", step["as"]}, {"removed_triangles", gone}, {"new_positions", positions}, {"new_triangles", corners}},
+        surface);
     result.array.emplace();
     for (size_t t = 0; t < sources.size(); ++t) {
       result.array->push_back(sources[t]);

@@ -270,8 +270,9 @@ Value pieces(Surface& s, const Arguments&) {
 
 const std::vector<Entry>& edit_methods() {
   static const std::vector<Entry> all = {
-      {"edit", 2, 4, edit}, {"edit_patch", 1, 3, edit_patch}, {"edit_cut", 1, 1, edit_cut}, {"edit_line", 1, 1, edit_line},
-      {"move_to", 1, 1, move_to}, {"cuts", 0, 0, cuts}, {"stiffness", 0, 0, stiffness},   {"links", 0, 0, links},       {"pieces", 0, 0, pieces}};
+      {"edit", 2, 4, edit},           {"edit_patch", 1, 3, edit_patch}, {"edit_cut", 1, 1, edit_cut},
+      {"edit_line", 1, 1, edit_line}, {"move_to", 1, 1, move_to},       {"cuts", 0, 0, cuts},
+      {"stiffness", 0, 0, stiffness}, {"links", 0, 0, links},           {"pieces", 0, 0, pieces}};
   return all;
 }
 
