@@ -8,12 +8,13 @@
 namespace hf_inner {
 namespace {
 
-// Moves a point near edges onto them: weights up to the share become 0.
+// Moves a point near edges onto them: weights below the share become 0, except the largest one.
 CurvePoint snapped(CurvePoint point, double share) noexcept {
   double sum = 0;
+  const auto largest = std::max_element(point.weight, point.weight + 3) - point.weight;
   for (int k = 0; k < 3; ++k) {
     double& w = point.weight[k];
-    if (w < share) {
+    if (k != largest && w < share) {
       w = 0;
       point.corner[k] = Mesh::none;
     }

@@ -375,6 +375,8 @@ TEST(TraceCut, LinesThatCannotBeCutAreRefusedByTheirSegment) {
   EXPECT_EQ(shape.code({v(1, 0), v(2, 0)}, HF_NO_INDEX), HF_ERROR_EMPTY);  // along the border
   EXPECT_EQ(shape.code({v(0, 3), v(6, 4)}, 0, 0.05, 4), HF_ERROR_TOO_LARGE);
   EXPECT_EQ(shape.code({v(1, 1), v(2, 1), v(2, 1), v(3, 1)}, HF_NO_INDEX), HF_OK);
+  // the middle of a triangle has no weight above a share of 0.4: it becomes a corner, and crashed once
+  EXPECT_EQ(shape.code({shape.in(20, 0.34, 0.33), shape.in(50, 0.33, 0.34)}, HF_NO_INDEX, 0.4), HF_OK);
   // a point moves onto the edge that it is near to: along that edge, nothing is crossed
   EXPECT_EQ(shape.cut({v(1, 1), v(2, 1), v(3, 1)}).triangles.size(), shape.cut({v(1, 1), v(3, 1)}).triangles.size());
 }
