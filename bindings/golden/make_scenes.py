@@ -333,6 +333,7 @@ def scenes(meshes):
     links(scene, surface, solver)
     edits_of_surfaces(scene, meshes["pair"], surface, solver)
     patches_of_surfaces(scene, meshes["pair"], surface, solver)
+    cuts_through_triangles(scene, meshes["pair"], surface, solver)
     skin_weights(scene, surface)
     carried_weights(scene, meshes["strip"], surface)
     return found
@@ -500,6 +501,31 @@ def patches_of_surfaces(scene, mesh, surface, solver):
           edit("m", "e", removed_triangles=[4000], error="HF_ERROR_OUT_OF_RANGE", index=0),
           edit("m", "e", cut_edges=[0, 24], error="HF_ERROR_NOT_FOUND", index=0),
           edit("m", "e", cut_edges=[6, 7], error="HF_ERROR_EMPTY"), move("m"), look(points, triangles))
+
+
+def cuts_through_triangles(scene, mesh, surface, solver):
+    """A knife through the first plate of the scene of links: from its border, and back to it."""
+    points, triangles = [np.array(mesh[key]).reshape(-1, 3) for key in ("positions", "triangles")]
+    t, k = next((t, k) for t, v in enumerate(triangles) for k in range(3)
+                if sum(v[k] in w and v[(k + 1) % 3] in w for w in triangles) == 1)
+    at = lambda t, *weights: [*(int(x) for x in triangles[t]), *weights]
+    start = [0.0, 0.0, 0.0]
+    start[k], start[(k + 1) % 3] = 0.55, 0.45
+    line = at(t, *start) + at(17, 0.3, 0.5, 0.2) + at(12, 0.25, 0.35, 0.4)
+    whole = hf.Surface(points, triangles, operator_kind=hf.constants.HF_OPERATOR_COTANGENT)
+    cut = whole.trace_cut(places=[(tuple(int(x) for x in line[i:i + 3]), line[i + 3:i + 6]) for i in range(0, len(line), 6)])
+    after = {"positions": np.vstack([points, cut.new_positions]).ravel(),
+             "triangles": np.vstack([np.delete(triangles, cut.removed_triangles, 0), cut.new_triangles]).ravel()}
+    rim = cut.rim_vertices[len(cut.rim_vertices) // 2].tolist()
+    rows = np.hstack([cut.source_triangles[:, None], cut.new_triangles, cut.corner_barycentrics.reshape(-1, 9)])
+    cut_by = lambda places, **more: {"do": "cut_surface", "on": "m", "as": "cut", "places": places, **more}
+    scene("traced_cuts", "A knife cuts through triangles from the border, and two sites stand on its two sides (dense oracle).",
+          surface("pair", operator_kind=hf.constants.HF_OPERATOR_COTANGENT), cut_by(line, expect=expect(rows.ravel())),
+          {"do": "report", "on": "cut", "expect": {"vertex_count": len(points) + len(cut.new_positions), "component_count": 2}},
+          solver(on="cut"), {"do": "add_sites", "on": "s", "vertices": [*rim, 49], "values": [0.0, 1.0, 3.0]},
+          {"do": "solve", "on": "s", "expect": expect(field(after, [*rim, 49], [0.0, 1.0, 3.0]))},
+          cut_by(line[:6], error="HF_ERROR_EMPTY", index=1), cut_by(line[:12] + at(40, 0.3, 0.3, 0.4), error="HF_ERROR_NOT_FOUND", index=1),
+          cut_by(line + line[6:12], error="HF_ERROR_CONFLICT", index=2))
 
 
 def skin_weights(scene, surface):

@@ -204,6 +204,26 @@ struct SurfaceEdit {
   hf_surface_edit_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
+// Describes the line of a knife: points on the surface, each joined to the next by the shortest path along triangles.
+// Set one of vertices, places and points. A line whose last point is its first is closed.
+struct CutOptions {
+  // `[point_count]` vertices of your mesh, or none
+  std::vector<uint32_t> vertices{};
+  // `[point_count]`, or none
+  std::vector<hf_place> places{};
+  // `[point_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the
+  // nearest point of the surface, up to two boxes away
+  std::vector<double> points{};
+  // a point nearer to a vertex than this share of its edge becomes the vertex, and one nearer to an edge than this
+  // share of the height moves onto the edge. So no slivers come in. From 1e-6 to 0.4; 0 = 0.05
+  double snap_share = 0;
+  // refuse a line of more points and crossings of edges; 0 = 1,000,000
+  uint32_t crossing_limit = 0;
+  // none, or an object to poll and cancel through
+  const Progress* progress = nullptr;
+  hf_cut_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
+};
+
 // Options of picking: posed positions, if the surface is not at rest, and which triangles count.
 struct PickOptions {
   // none, or `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). none: the rest
@@ -696,6 +716,30 @@ struct WeightsMirrorOptions {
   hf_weights_mirror_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
+// A cut as triangles that go and come. The first three arrays fit Patch. New vertices and triangles have the numbers
+// after the last ones of your mesh. The arrays are yours: each is none or as large as its capacity.
+struct Cut {
+  // `[removed_triangle_capacity]` triangles of your mesh, ascending
+  std::vector<uint32_t> removed_triangles;
+  // `[new_vertex_capacity x 3]` in the unit of your mesh
+  std::vector<double> new_positions;
+  // `[new_triangle_capacity x 3]` vertices of your mesh, the first of welded copies, and new ones
+  std::vector<uint32_t> new_triangles;
+  // `[new_vertex_capacity x 3]` vertices of your mesh; the new vertex lies between them. Mix their attributes, as skin
+  // weights. HF_NO_INDEX where a weight is 0
+  std::vector<uint32_t> vertex_corners;
+  // `[new_vertex_capacity x 3]` their weights, of sum 1. A single 1 copies a vertex
+  std::vector<double> vertex_barycentrics;
+  // `[new_triangle_capacity]` the removed triangle that each new one is a part of
+  std::vector<uint32_t> source_triangles;
+  // `[new_triangle_capacity x 3 x 3]` three weights for each corner of a new triangle, of the corners of its source:
+  // for what corners have, as UVs at seams
+  std::vector<double> corner_barycentrics;
+  // `[rim_capacity x 2]` along the line: the vertex on its left and that on its right; one and the same where the line
+  // ends inside the surface. At a border between its ends: those after it
+  std::vector<uint32_t> rim_vertices;
+};
+
 // Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 - parameter)
 // a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each is none or as
 // large as its capacity.
@@ -1166,6 +1210,54 @@ class Surface {
     std::vector<uint8_t> block(size);
     check(hf_surface_save(get(), field_kind, progress ? progress->get() : nullptr, block.size(), block.data(), &size));
     return block;
+  }
+
+  // Turns a line on the surface into a cut through triangles. Give the arrays to Surface::edit as a patch, and change
+  // your mesh in the same way. The surface itself does not change.
+  //
+  // A line from border to border, or a closed line around a part, parts it from the rest. A line that starts at the
+  // border opens it. An end inside the surface stays closed. The line may pass vertices and run along edges. It is
+  // straight where its triangles are unfolded, and bends at its points and at vertices only. The parts of a triangle
+  // are a Delaunay triangulation of it. Points are whole multiples of 2^-29 of an edge. On a mesh whose triangles are
+  // turned alike, left is left for a viewer who looks at the outside along the line. New vertices have the stiffness 1.
+  //
+  // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+  // HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.
+  Cut trace_cut(const CutOptions& options = {}) const {
+    Call c(counts_);
+    const hf_cut_desc desc = options.fill(c, "");
+    auto cut = make<hf_cut>();
+    c.sizes["removed_triangle_capacity"] = Call::kFirst;
+    c.sizes["new_vertex_capacity"] = Call::kFirst;
+    c.sizes["new_triangle_capacity"] = Call::kFirst;
+    c.sizes["rim_capacity"] = Call::kFirst;
+    Cut found;
+    for (bool done = false; !done;) {
+      cut.removed_triangle_capacity = c.count("removed_triangle_capacity", 0);
+      cut.new_vertex_capacity = c.count("new_vertex_capacity", 0);
+      cut.new_triangle_capacity = c.count("new_triangle_capacity", 0);
+      cut.rim_capacity = c.count("rim_capacity", 0);
+      cut.removed_triangles = c.room(found.removed_triangles, {"removed_triangle_capacity"});
+      cut.new_positions = c.room(found.new_positions, {"new_vertex_capacity", "3"});
+      cut.new_triangles = c.room(found.new_triangles, {"new_triangle_capacity", "3"});
+      cut.vertex_corners = c.room(found.vertex_corners, {"new_vertex_capacity", "3"});
+      cut.vertex_barycentrics = c.room(found.vertex_barycentrics, {"new_vertex_capacity", "3"});
+      cut.source_triangles = c.room(found.source_triangles, {"new_triangle_capacity"});
+      cut.corner_barycentrics = c.room(found.corner_barycentrics, {"new_triangle_capacity", "3", "3"});
+      cut.rim_vertices = c.room(found.rim_vertices, {"rim_capacity", "2"});
+      const hf_result code = hf_surface_trace_cut(get(), &desc, &cut);
+      done = c.enough(code, {{"removed_triangle_capacity", cut.removed_triangle_count}, {"new_vertex_capacity",
+          cut.new_vertex_count}, {"new_triangle_capacity", cut.new_triangle_count}, {"rim_capacity", cut.rim_count}});
+    }
+    found.removed_triangles.resize(c.product({"removed_triangle_capacity"}));
+    found.new_positions.resize(c.product({"new_vertex_capacity", "3"}));
+    found.new_triangles.resize(c.product({"new_triangle_capacity", "3"}));
+    found.vertex_corners.resize(c.product({"new_vertex_capacity", "3"}));
+    found.vertex_barycentrics.resize(c.product({"new_vertex_capacity", "3"}));
+    found.source_triangles.resize(c.product({"new_triangle_capacity"}));
+    found.corner_barycentrics.resize(c.product({"new_triangle_capacity", "3", "3"}));
+    found.rim_vertices.resize(c.product({"rim_capacity", "2"}));
+    return found;
   }
 
   // Finds what a mouse click hits: the first triangle on a ray.
@@ -3949,6 +4041,18 @@ inline hf_surface_edit_desc SurfaceEdit::fill([[maybe_unused]] Call& c,
   desc.vertex_count = c.count(prefix + "vertex_count", 0);
   desc.link_count = c.count(prefix + "link_count", 0);
   desc.removed_link_count = c.count(prefix + "removed_link_count", 0);
+  return desc;
+}
+
+inline hf_cut_desc CutOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
+  auto desc = make<hf_cut_desc>();
+  desc.snap_share = snap_share;
+  desc.crossing_limit = crossing_limit;
+  desc.vertices = c.array(vertices, false, "vertices", {prefix + "point_count"});
+  desc.places = c.array(places, false, "places", {prefix + "point_count"});
+  desc.points = c.array(points, false, "points", {prefix + "point_count", "3"});
+  desc.progress = progress ? progress->get() : nullptr;
+  desc.point_count = c.count(prefix + "point_count", 0);
   return desc;
 }
 

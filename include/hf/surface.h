@@ -509,6 +509,74 @@ typedef struct hf_place {
   double barycentrics[3]; /* weights of the corners, >= 0, of sum 1 within 1e-6. A single 1 is a vertex */
 } hf_place;
 
+/* ---- cuts through triangles ---- */
+
+/* Describes the line of a knife: points on the surface, each joined to the next by the shortest path along triangles.
+ * Set one of vertices, places and points. A line whose last point is its first is closed. */
+typedef struct hf_cut_desc {
+  uint32_t struct_size;
+  uint32_t point_count;     /* 2 to 10,000,000 */
+  const uint32_t* vertices; /* [point_count] vertices of your mesh, or NULL */
+  const hf_place* places;   /* [point_count], or NULL */
+  const double* points;     /* [point_count][3] points in space, at rest, in the unit and frame of the mesh, or NULL.
+                               Each stands for the nearest point of the surface, up to two boxes away */
+  double snap_share;        /* a point nearer to a vertex than this share of its edge becomes the vertex, and one nearer
+                               to an edge than this share of the height moves onto the edge. So no slivers come in.
+                               From 1e-6 to 0.4; 0 = 0.05 */
+  uint32_t crossing_limit;  /* refuse a line of more points and crossings of edges; 0 = 1,000,000 */
+  uint32_t reserved;        /* 0 */
+  hf_progress progress;     /* NULL, or an object to poll and cancel through */
+} hf_cut_desc;
+
+/* A cut as triangles that go and come. The first three arrays fit hf_patch_desc. New vertices and triangles
+ * have the numbers after the last ones of your mesh. The arrays are yours: each is NULL or as large as its capacity.
+ *
+ * More than 16 fields: they are the arrays of one patch, and their counts. */
+typedef struct hf_cut {
+  uint32_t struct_size;
+  uint32_t removed_triangle_capacity; /* in: triangles the array can take */
+  uint32_t new_vertex_capacity;       /* in: vertices the arrays can take */
+  uint32_t new_triangle_capacity;     /* in: triangles the arrays can take */
+  uint32_t rim_capacity;              /* in: points of the line the array can take */
+  uint32_t removed_triangle_count;    /* out */
+  uint32_t new_vertex_count;          /* out */
+  uint32_t new_triangle_count;        /* out */
+  uint32_t rim_count;                 /* out: points of the line; the first of a closed line is not repeated */
+  uint32_t reserved;                  /* 0 */
+  uint32_t* removed_triangles;        /* [removed_triangle_capacity] triangles of your mesh, ascending */
+  double* new_positions;              /* [new_vertex_capacity][3] in the unit of your mesh */
+  uint32_t* new_triangles;     /* [new_triangle_capacity][3] vertices of your mesh, the first of welded copies, and
+                                  new ones */
+  uint32_t* vertex_corners;    /* [new_vertex_capacity][3] vertices of your mesh; the new vertex lies between
+                                  them. Mix their attributes, as skin weights. HF_NO_INDEX where a weight is 0 */
+  double* vertex_barycentrics; /* [new_vertex_capacity][3] their weights, of sum 1. A single 1 copies a vertex */
+  uint32_t* source_triangles;  /* [new_triangle_capacity] the removed triangle that each new one is a part of */
+  double* corner_barycentrics; /* [new_triangle_capacity][3][3] three weights for each corner of a new triangle, of
+                                  the corners of its source: for what corners have, as UVs at seams */
+  uint32_t* rim_vertices;      /* [rim_capacity][2] along the line: the vertex on its left and that on its right;
+                                  one and the same where the line ends inside the surface. At a
+                                  border between its ends: those after it */
+} hf_cut;
+
+/* Turns a line on the surface into a cut through triangles. Give the arrays to hf_surface_edit as a patch, and change
+ * your mesh in the same way. The surface itself does not change.
+ *
+ * A line from border to border, or a closed line around a part, parts it from the rest. A line that starts at the
+ * border opens it. An end inside the surface stays closed. The line may pass vertices and run along edges. It is
+ * straight where its triangles are unfolded, and bends at its points and at vertices only. The parts of a triangle are
+ * a Delaunay triangulation of it. Points are whole multiples of 2^-29 of an edge. On a mesh whose triangles are turned
+ * alike, left is left for a viewer who looks at the outside along the line. New vertices have the stiffness 1.
+ *
+ * Cost: a shortest path for each two points in different triangles, and a pass over the vertices. Errors:
+ * HF_ERROR_EMPTY (fewer than 2 points, no length, or nothing is parted), HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE,
+ * HF_ERROR_INVALID_ARGUMENT (snap_share; isolated vertex, barycentrics, corners of no triangle: index = point),
+ * HF_ERROR_TOO_LARGE (a point two boxes or more away, index = point; too many points or crossings),
+ * HF_ERROR_CONFLICT (a line that crosses or touches itself), HF_ERROR_NOT_FOUND (a point in another component than the
+ * point before), both with the index of the segment: 0 from the first point to the second; HF_ERROR_UNSUPPORTED
+ * (a graph, polygons; a triangle that lies on another one, index = triangle), HF_ERROR_TOO_SMALL (a capacity; the
+ * counts are written), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_trace_cut(hf_surface surface, const hf_cut_desc* desc, hf_cut* inout_cut);
+
 /* ---- picking ---- */
 
 /* Options of picking: posed positions, if the surface is not at rest, and which triangles count. */

@@ -84,6 +84,7 @@ void run(const Command& options) {
   write("ability_pose.png", {pose.draw(width, height, 1)});
   write("ability_surface.png", {draw_surface(Body("horse", std::min(options.vertices, 1600u)), 2 * width, 2 * height)});
   write("ability_geodesics.png", {draw_geodesics(horse, 2 * width, 2 * height)});
+  write("ability_cut.png", {draw_cut(Body("horse", std::min(options.vertices, 4000u)), 2 * width, 2 * height)});
   write("ability_quads.png", {draw_quads(horse, width, height)});
   write("ability_detail.png", {draw_detail(horse, width, height)});
   write("ability_direction.png", {draw_direction(horse, width, height)});

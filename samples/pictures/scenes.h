@@ -90,6 +90,7 @@ class WalkScene {
 // Pictures that do not move.
 Picture draw_surface(const Body& body, int width, int height);
 Picture draw_geodesics(const Body& body, int width, int height);
+Picture draw_cut(const Body& body, int width, int height);
 Picture draw_quads(const Body& body, int width, int height);
 Picture draw_detail(const Body& body, int width, int height);
 Picture draw_direction(const Body& body, int width, int height);

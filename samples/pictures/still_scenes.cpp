@@ -1,4 +1,4 @@
-// See scenes.h: surfaces, quads, detail, directions and geodesics.
+// See scenes.h: surfaces, cuts, quads, detail, directions and geodesics.
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -56,6 +56,52 @@ Picture draw_geodesics(const Body& body, int width, int height) {
   look.scalar_low = 0;
   look.scalar_high = *std::max_element(drawn.scalars.begin(), drawn.scalars.end());
   look.strips = 32;
+  return render(drawn, view, look, marks);
+}
+
+Picture draw_cut(const Body& body, int width, int height) {
+  // a wave along the flank, from the shoulder to the hip
+  hf::CutOptions knife;
+  for (int i = 0; i <= 16; ++i) {
+    const double share = i / 16.0;
+    knife.points.insert(knife.points.end(), {-0.6, 1.25 + 0.12 * std::sin(9 * share), 0.55 - 1.15 * share});
+  }
+  const hf::Cut cut = body.surface.trace_cut(knife);
+  hf::SurfaceEdit edit;
+  edit.patch = hf::Patch{cut.removed_triangles, cut.new_positions, cut.new_triangles, {}};
+  const hf::Surface edited = body.surface.edit(edit);
+  // 0 and 1 at the two sides of the middle
+  hf::Solver solver(edited);
+  const size_t middle = cut.rim_vertices.size() / 4 * 2;
+  solver.add_sites({cut.rim_vertices[middle], cut.rim_vertices[middle + 1]}, {0, 1});
+  Surface drawn;
+  drawn.positions = body.mesh.positions;
+  drawn.positions.insert(drawn.positions.end(), cut.new_positions.begin(), cut.new_positions.end());
+  for (size_t t = 0; t < body.mesh.triangles.size() / 3; ++t) {
+    if (std::binary_search(cut.removed_triangles.begin(), cut.removed_triangles.end(), static_cast<uint32_t>(t)))
+      continue;
+    drawn.triangles.insert(drawn.triangles.end(), &body.mesh.triangles[3 * t], &body.mesh.triangles[3 * t] + 3);
+  }
+  drawn.triangles.insert(drawn.triangles.end(), cut.new_triangles.begin(), cut.new_triangles.end());
+  drawn.scalars = solver.solve_f64();
+  Marks marks;
+  for (size_t i = 0; i < drawn.triangles.size(); i += 3) {
+    marks.lines.push_back(outline_of(drawn.positions, &drawn.triangles[i], 3));
+    marks.lines.back().width = 0.4;
+  }
+  Polyline line;
+  line.width = 3;
+  line.color = {0.75, 0.08, 0.08};
+  for (size_t i = 0; i < cut.rim_vertices.size(); i += 2)
+    line.points.push_back(point_of(drawn.positions, cut.rim_vertices[i]));
+  marks.lines.push_back(line);
+  View view = side_view(width, height);
+  view.fixed_box = false;
+  SurfaceLook look;
+  look.fill = Fill::iso_strips;
+  look.scalar_low = 0;
+  look.scalar_high = 1;
+  look.strips = 24;
   return render(drawn, view, look, marks);
 }
 

@@ -1,9 +1,13 @@
 // Implements the edits of hf/surface.h, and the functions that move solvers and poses to an edited surface.
+#include <algorithm>
+
 #include "capi/objects.h"
 #include "capi/pose_object.h"
 #include "capi/vertex_writer.h"
 #include "engine/surface_intake.h"
 #include "hf/solver.h"
+#include "mesh/cut_intake.h"
+#include "mesh/trace_cut.h"
 
 namespace hf_inner::capi {
 namespace {
@@ -13,6 +17,40 @@ void require_same_origin(const Core& core, const Surface& surface, const char* n
     fail(HF_ERROR_CONFLICT, HF_NO_INDEX,
          "the %s is on another surface: move it to one that hf_surface_edit or hf_surface_relink made from its own",
          noun);
+}
+
+template <class From, class To>
+void copy(const From& from, To* to) {
+  if (to) std::copy(from.begin(), from.end(), to);
+}
+
+void write_cut(const Mesh& mesh, const TracedCut& cut, hf_cut* inout_cut) {
+  hf_cut out = read_struct(inout_cut, "inout_cut");
+  out.removed_triangle_count = static_cast<std::uint32_t>(cut.removed.size());
+  out.new_vertex_count = static_cast<std::uint32_t>(cut.vertices.size());
+  out.new_triangle_count = static_cast<std::uint32_t>(cut.sources.size());
+  out.rim_count = static_cast<std::uint32_t>(cut.rims.size() / 2);
+  write_struct(inout_cut, out);
+  check_capacity(out.removed_triangles, out.removed_triangle_capacity, out.removed_triangle_count,
+                 "removed_triangle_capacity");
+  check_capacity(out.new_positions || out.vertex_corners || out.vertex_barycentrics, out.new_vertex_capacity,
+                 out.new_vertex_count, "new_vertex_capacity");
+  check_capacity(out.new_triangles || out.source_triangles || out.corner_barycentrics, out.new_triangle_capacity,
+                 out.new_triangle_count, "new_triangle_capacity");
+  check_capacity(out.rim_vertices, out.rim_capacity, out.rim_count, "rim_capacity");
+  copy(cut.removed, out.removed_triangles);
+  copy(cut.triangles, out.new_triangles);
+  copy(cut.sources, out.source_triangles);
+  copy(cut.weights, out.corner_barycentrics);
+  copy(cut.rims, out.rim_vertices);
+  for (std::size_t v = 0; v < cut.vertices.size(); ++v) {
+    const SurfacePlace& place = cut.vertices[v];
+    if (out.new_positions) put(position_of(mesh, place), out.new_positions + 3 * v);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (out.vertex_corners) out.vertex_corners[3 * v + k] = given_vertex(mesh, place.vertex[k]);
+      if (out.vertex_barycentrics) out.vertex_barycentrics[3 * v + k] = place.weight[k];
+    }
+  }
 }
 
 }  // namespace
@@ -49,6 +87,22 @@ hf_result hf_surface_get_cuts(hf_surface surface, uint32_t capacity, hf_cut_corn
       out_cuts[i] = {static_cast<uint32_t>(cut.triangle), static_cast<uint32_t>(cut.corner),
                      static_cast<uint32_t>(cut.vertex), static_cast<uint32_t>(cut.copied)};
     }
+  });
+}
+
+hf_result hf_surface_trace_cut(hf_surface surface, const hf_cut_desc* given, hf_cut* inout_cut) {
+  return guarded("hf_surface_trace_cut", [&] {
+    const auto object = mesh_surface(surface, "a cut");
+    const hf_cut_desc desc = read_struct(given, "desc");
+    require_zero(read_struct(inout_cut, "inout_cut").reserved);
+    const Geometry& shape = object->surface.geometry().unlinked();
+    if (!shape.mesh.faces.empty())
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a surface of polygons cannot be cut; make the surface of triangles");
+    const CutOptions options = read_cut_options(desc);
+    with_progress(desc.progress, [&] {
+      const Vector<CurvePoint> points = read_cut_points(desc, shape.mesh, shape.topology(), *shape.memory);
+      write_cut(shape.mesh, trace_cut(shape.mesh, shape.topology(), points, options, *shape.memory), inout_cut);
+    });
   });
 }
 

@@ -1,4 +1,4 @@
-// Tells the two sides of a closed curve through triangles (surface_curve.h), and refuses one that crosses itself.
+// Tells the two sides of a closed curve through triangles (mesh/surface_curve.h), and refuses one that crosses itself.
 //
 // Each edge that the curve crosses counts +1 or -1 from its first vertex to its second. Summed along edges, these
 // numbers say how often the curve runs round each vertex: its winding number. Where the sums depend on the way, the
@@ -8,7 +8,7 @@
 // region depends on them.
 #pragma once
 #include "detail/curve.h"
-#include "detail/surface_curve.h"
+#include "mesh/surface_curve.h"
 
 namespace hf_inner {
 

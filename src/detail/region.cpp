@@ -34,7 +34,8 @@ Enclosed enclosed(const RegionSurface& surface, const RegionEdit& edit, Memory& 
     for (const Index v : curve.vertices) result.line.push_back(surface.position(v));
     return result;
   }
-  const SurfaceCurve curve = surface_curve(core, edit.curve, memory);
+  const SurfaceCurve curve =
+      surface_curve(core.geometry->unlinked().mesh, core.geometry->unlinked().topology(), edit.curve, {}, memory);
   result.inside = surface_curve_side(core, edit.curve, curve, edit.side, edit.seed, memory);
   for (std::size_t i = 0; i < curve.place.size(); ++i) {
     const PathPoint& place = curve.place[i];

@@ -19,8 +19,8 @@
 #include "base/progress.h"
 #include "detail/curve.h"
 #include "detail/region_shape.h"
-#include "detail/surface_curve.h"
 #include "engine/site_solver.h"
+#include "mesh/surface_curve.h"
 
 namespace hf_inner {
 

@@ -6,20 +6,13 @@
 #include "base/index.h"
 #include "mesh/place_reader.h"
 #include "mesh/places.h"
-#include "mesh/union_find.h"
+#include "mesh/vertex_fan.h"
 
 namespace hf_inner {
 namespace {
 
-struct Edge {
-  Index first, second;  // inner vertices, the smaller one first
+struct Edge : CutEdge {  // of inner vertices
   std::uint32_t given;
-  bool operator<(const Edge& o) const noexcept { return first != o.first ? first < o.first : second < o.second; }
-};
-
-// A triangle at a vertex of the cut, with its next corners around it.
-struct Wing {
-  Index vertex, triangle, corner, next, last;
 };
 
 Vector<Edge> read_edges(const Mesh& mesh, Span<const std::uint32_t> edges, Memory& memory) {
@@ -36,61 +29,11 @@ Vector<Edge> read_edges(const Mesh& mesh, Span<const std::uint32_t> edges, Memor
     if (end[0] == end[1])
       fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of cut_edges: vertices %u and %u are one, or welded", i,
            edges[2 * i], edges[2 * i + 1]);
-    out.push_back({std::min(end[0], end[1]), std::max(end[0], end[1]), i});
+    out.push_back({{std::min(end[0], end[1]), std::max(end[0], end[1])}, i});
   }
   std::sort(out.begin(), out.end());
   return out;
 }
-
-// Parts the triangles at one vertex.
-class Fan {
- public:
-  // given: by usable triangle, the triangle of the caller.
-  Fan(const Mesh& mesh, const Vector<Index>& given, Span<const Wing> wings, const Vector<Edge>& cut, Memory& memory)
-      : mesh_(mesh), given_(given), wings_(wings), cut_(cut), memory_(memory) {}
-
-  void part(Index& next_copy, Vector<Mesh::CutCorner>& out) const {
-    struct Side {
-      Index other, wing;
-      bool operator<(const Side& o) const noexcept { return other != o.other ? other < o.other : wing < o.wing; }
-    };
-    Vector<Side> sides(&memory_);
-    for (std::size_t w = 0; w < wings_.size(); ++w) {
-      sides.push_back({wings_[w].next, static_cast<Index>(w)});
-      sides.push_back({wings_[w].last, static_cast<Index>(w)});
-    }
-    std::sort(sides.begin(), sides.end());
-    UnionFind fans(wings_.size(), memory_), groups(wings_.size(), memory_);
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-      if (sides[i].other != sides[i - 1].other) continue;
-      fans.unite(sides[i].wing, sides[i - 1].wing);
-      if (!is_cut(wings_[0].vertex, sides[i].other)) groups.unite(sides[i].wing, sides[i - 1].wing);
-    }
-    // the lowest wing stands for its group, and the lowest group of a fan keeps the vertex
-    Vector<Side> parts(&memory_);  // groups that take copies, and their wings
-    for (std::size_t w = 0; w < wings_.size(); ++w) {
-      const Index group = groups.find(static_cast<Index>(w));
-      if (fans.find(group) != group) parts.push_back({group, static_cast<Index>(w)});
-    }
-    std::sort(parts.begin(), parts.end());
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      if (i > 0 && parts[i].other != parts[i - 1].other) ++next_copy;
-      const Wing& wing = wings_[at(parts[i].wing)];
-      out.push_back({given_[at(wing.triangle)], wing.corner, next_copy, mesh_.given_of_inner[at(wing.vertex)]});
-    }
-    if (!parts.empty()) ++next_copy;
-  }
-
- private:
-  bool is_cut(Index a, Index b) const noexcept {
-    return std::binary_search(cut_.begin(), cut_.end(), Edge{std::min(a, b), std::max(a, b), 0});
-  }
-  const Mesh& mesh_;
-  const Vector<Index>& given_;
-  Span<const Wing> wings_;
-  const Vector<Edge>& cut_;
-  Memory& memory_;
-};
 
 }  // namespace
 
@@ -106,14 +49,16 @@ Vector<Mesh::CutCorner> cut_edges(const Mesh& mesh, Span<const std::uint32_t> ed
       if (on[at(v[k])]) wings.push_back({v[k], t, k, v[(k + 1) % 3], v[(k + 2) % 3]});
   }
   std::stable_sort(wings.begin(), wings.end(), [](const Wing& a, const Wing& b) { return a.vertex < b.vertex; });
-  Vector<Edge> there(&memory);
+  Vector<CutEdge> there(&memory);
   for (const Wing& wing : wings) {
     for (const Index other : {wing.next, wing.last})
-      there.push_back({std::min(wing.vertex, other), std::max(wing.vertex, other), 0});
+      there.push_back({std::min(wing.vertex, other), std::max(wing.vertex, other)});
   }
   std::sort(there.begin(), there.end());
+  Vector<CutEdge> pairs(&memory);
   for (const Edge& edge : cut) {
-    if (!std::binary_search(there.begin(), there.end(), edge))
+    pairs.push_back(edge);
+    if (!std::binary_search(there.begin(), there.end(), pairs.back()))
       fail(HF_ERROR_NOT_FOUND, edge.given, "entry %u of cut_edges: no triangle has an edge between vertices %u and %u",
            edge.given, edges[2 * edge.given], edges[2 * edge.given + 1]);
   }
@@ -124,7 +69,13 @@ Vector<Mesh::CutCorner> cut_edges(const Mesh& mesh, Span<const std::uint32_t> ed
   Index next_copy = static_cast<Index>(mesh.report.vertex_count);
   for (std::size_t begin = 0, end = 0; begin < wings.size(); begin = end) {
     while (end < wings.size() && wings[end].vertex == wings[begin].vertex) ++end;
-    Fan(mesh, given, {wings.data() + begin, end - begin}, cut, memory).part(next_copy, out);
+    const Vector<FanPart> parts = fan_parts({wings.data() + begin, end - begin}, pairs, memory);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (i > 0 && parts[i].part != parts[i - 1].part) ++next_copy;
+      const Wing& wing = wings[begin + at(parts[i].wing)];
+      out.push_back({given[at(wing.triangle)], wing.corner, next_copy, mesh.given_of_inner[at(wing.vertex)]});
+    }
+    if (!parts.empty()) ++next_copy;
   }
   if (out.empty())
     fail(HF_ERROR_EMPTY, HF_NO_INDEX,

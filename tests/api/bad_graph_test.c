@@ -327,6 +327,11 @@ static void graphs_take_a_stiffness(void** state) {
   edit.patch = &patch;
   hf_surface cut = NULL;
   assert_code(HF_ERROR_UNSUPPORTED, hf_surface_edit(graph, &edit, &cut));
+  hf_cut_desc knife = HF_INIT(hf_cut_desc);
+  knife.point_count = 2;
+  knife.vertices = vertex;
+  hf_cut traced = HF_INIT(hf_cut);
+  assert_code(HF_ERROR_UNSUPPORTED, hf_surface_trace_cut(graph, &knife, &traced));
   hf_surface_destroy(stiff);
   hf_solver_destroy(solver);
   hf_solver_destroy(vectors);

@@ -15,7 +15,7 @@ static hf_direction round_field; /* on a closed surface, where the field has sin
 static hf_skeleton skeleton;     /* of a stick man, played on itself */
 static hf_retarget retarget;
 
-enum { DIMENSIONS = 4, ARRAYS = 7 };
+enum { DIMENSIONS = 4, ARRAYS = 8 };
 
 /* One array: which capacity it follows, the bytes of an entry, and how many entries more than that it has. */
 typedef struct Array {
@@ -41,6 +41,32 @@ static hf_result get_cuts(Call* c) {
   uint32_t count = 777;
   const hf_result r = hf_surface_get_cuts(parted, (uint32_t)c->capacity[0], c->array[0], &count);
   c->count[0] = count;
+  return r;
+}
+static hf_result trace_cut(Call* c) {
+  const hf_place line[2] = {{{0, TUBE_AROUND, 1}, 0, {0.6, 0.01, 0.39}},
+                            {{1, TUBE_AROUND, TUBE_AROUND + 1}, 0, {0.3, 0.4, 0.3}}};
+  hf_cut_desc desc = HF_INIT(hf_cut_desc);
+  desc.point_count = 2;
+  desc.places = line;
+  hf_cut cut = HF_INIT(hf_cut);
+  cut.removed_triangle_capacity = (uint32_t)c->capacity[0];
+  cut.new_vertex_capacity = (uint32_t)c->capacity[1];
+  cut.new_triangle_capacity = (uint32_t)c->capacity[2];
+  cut.rim_capacity = (uint32_t)c->capacity[3];
+  cut.removed_triangles = c->array[0];
+  cut.new_positions = c->array[1];
+  cut.vertex_corners = c->array[2];
+  cut.vertex_barycentrics = c->array[3];
+  cut.new_triangles = c->array[4];
+  cut.source_triangles = c->array[5];
+  cut.corner_barycentrics = c->array[6];
+  cut.rim_vertices = c->array[7];
+  const hf_result r = hf_surface_trace_cut(scene.body, &desc, &cut);
+  c->count[0] = cut.removed_triangle_count;
+  c->count[1] = cut.new_vertex_count;
+  c->count[2] = cut.new_triangle_count;
+  c->count[3] = cut.rim_count;
   return r;
 }
 static hf_result get_components(Call* c) {
@@ -351,6 +377,10 @@ static const struct {
     {"hf_surface_get_components", get_components, {{0, 4, 0}}, 0},
     {"hf_surface_get_stiffness", get_stiffness, {{0, 8, 0}}, 0},
     {"hf_surface_get_cuts", get_cuts, {{0, sizeof(hf_cut_corner), 0}}, 0},
+    {"hf_surface_trace_cut",
+     trace_cut,
+     {{0, 4, 0}, {1, 24, 0}, {1, 12, 0}, {1, 24, 0}, {2, 12, 0}, {2, 4, 0}, {2, 72, 0}, {3, 8, 0}},
+     0},
     {"hf_surface_get_links", get_links, {{0, sizeof(hf_link), 0}}, 0},
     {"hf_surface_get_pieces", get_pieces, {{0, 4, 0}, {0, 4, 0}}, 0},
     {"hf_surface_measure_gaps", measure_gaps, {{0, 8, 0}}, 0},

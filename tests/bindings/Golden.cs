@@ -243,6 +243,16 @@ class Scene
                             Numbers(Get(step, "removed_links")), patches ? patch : null);
                     return null;
                 }
+            case "cut_surface":
+                {
+                    Cut cut = surface.TraceCut(places: PlacesOf(step));
+                    var patch = new PatchDesc { RemovedTriangles = cut.RemovedTriangles, NewPositions = cut.NewPositions,
+                        NewTriangles = cut.NewTriangles };
+                    objects[name] = surface.Edit(patch: patch);
+                    return Enumerable.Range(0, cut.SourceTriangles.Length).SelectMany(t => new double[] { cut.SourceTriangles[t] }
+                        .Concat(cut.NewTriangles.Skip(3 * t).Take(3).Select(v => (double)v))
+                        .Concat(cut.CornerBarycentrics.Skip(9 * t).Take(9))).ToArray();
+                }
             case "cuts": return surface.Cuts().SelectMany(c => new double[] { c.Triangle, c.Corner, c.Vertex, c.Copied }).ToArray();
             case "move_to":
                 {

@@ -103,6 +103,17 @@ func run(step, objects, kept):
 			if result != null:
 				objects[step["as"]] = made
 			return [true, result, made]
+		"cut_surface":
+			var made = shares(on)
+			var rows = made.edit_line(step.places)
+			var numbers = []
+			for row in (rows if rows != null else []):
+				numbers += [row.triangle, row.a, row.b, row.c]
+				for corner in ["a", "b", "c"]:
+					numbers += [row[corner + "0"], row[corner + "1"], row[corner + "2"]]
+			if rows != null:
+				objects[step["as"]] = made
+			return [true, PackedFloat32Array(numbers) if rows != null else null, made]
 		"cuts":
 			var corners = []
 			for row in on.cuts():

@@ -121,6 +121,19 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'clone':
       objects[step.as] = on.clone();
       return {};
+    case 'cut_surface': {
+      const cut = on.traceCut({ places: placesOf(get('places')) });
+      const { removedTriangles, newPositions, newTriangles } = cut;
+      objects[step.as] = on.edit({ patch: { removedTriangles, newPositions, newTriangles } });
+      const part = (list, width, i) => [...list.slice(width * i, width * (i + 1))];
+      return {
+        array: [...cut.sourceTriangles].flatMap((source, i) => [
+          source,
+          ...part(newTriangles, 3, i),
+          ...part(cut.cornerBarycentrics, 9, i),
+        ]),
+      };
+    }
     case 'edit_surface': {
       const rows = get('links') ?? [];
       const links = [...Array(rows.length / 8).keys()].map((i) => ({

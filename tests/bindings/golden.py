@@ -111,6 +111,13 @@ class Scene:
                 ("new_positions", (-1, 3)), ("new_triangles", (-1, 3)), ("cut_edges", (-1, 2))) if name in step}
             self.objects[step["as"]] = on.edit(get("vertices"), get("stiffness"), links, get("removed_links"),
                 patch=patch or None)
+        elif do == "cut_surface":
+            places = [(row[:3].astype(int), row[3:]) for row in np.reshape(get("places"), (-1, 6))]
+            cut = on.trace_cut(places=places)
+            self.objects[step["as"]] = on.edit(patch={name: getattr(cut, name) for name in ("removed_triangles",
+                "new_positions", "new_triangles")})
+            return "array", np.hstack([cut.source_triangles[:, None], cut.new_triangles,
+                cut.corner_barycentrics.reshape(-1, 9)]).ravel()
         elif do == "cuts":
             return "array", np.array([list(cut) for cut in on.cuts().tolist()], float).ravel()
         elif do == "move_to":

@@ -238,15 +238,7 @@ impl<'a> Scene<'a> {
             self.doubles(step, "values"),
         );
         let (stiffness, radii) = (self.doubles(step, "stiffness"), self.doubles(step, "radii"));
-        let inside: Option<Vec<hf::raw::hf_place>> = self.doubles(step, "places").map(|list| {
-            list.chunks(6)
-                .map(|six| hf::raw::hf_place {
-                    corners: [six[0] as u32, six[1] as u32, six[2] as u32],
-                    barycentrics: [six[3], six[4], six[5]],
-                    ..Default::default()
-                })
-                .collect()
-        });
+        let inside = self.places(step);
         let places = Sites {
             vertices: vertices.as_deref(),
             values: values.as_deref(),
@@ -335,6 +327,19 @@ impl<'a> Scene<'a> {
         moved.map(|()| Answer::Nothing)
     }
 
+    /// Six numbers for each place.
+    fn places(&self, step: &Value) -> Option<Vec<raw::hf_place>> {
+        self.doubles(step, "places").map(|list| {
+            list.chunks(6)
+                .map(|six| raw::hf_place {
+                    corners: [six[0] as u32, six[1] as u32, six[2] as u32],
+                    barycentrics: [six[3], six[4], six[5]],
+                    ..Default::default()
+                })
+                .collect()
+        })
+    }
+
     fn surface_step(&mut self, what: &str, step: &Value) -> Outcome {
         let (field, posed) = (
             self.doubles(step, "field").unwrap_or_default(),
@@ -397,6 +402,31 @@ impl<'a> Scene<'a> {
             Ok(Answer::Array(list.into_iter().map(f64::from).collect()))
         };
         let made = match what {
+            "cut_surface" => {
+                let places = self.places(step);
+                let whole = on!(self, step, Surface);
+                let cut = whole.trace_cut(&CutOptions {
+                    places: places.as_deref(),
+                    ..Default::default()
+                })?;
+                let edited = whole.edit(&SurfaceEdit {
+                    patch: Some(Patch {
+                        removed_triangles: Some(&cut.removed_triangles),
+                        new_positions: Some(&cut.new_positions),
+                        new_triangles: Some(&cut.new_triangles),
+                        cut_edges: None,
+                    }),
+                    ..Default::default()
+                })?;
+                let _ = self.keep(step, Object::Surface(edited));
+                let mut rows = Vec::new();
+                for (t, source) in cut.source_triangles.iter().enumerate() {
+                    rows.push(f64::from(*source));
+                    rows.extend(cut.new_triangles[3 * t..3 * t + 3].iter().map(|v| f64::from(*v)));
+                    rows.extend(&cut.corner_barycentrics[9 * t..9 * t + 9]);
+                }
+                return array(rows, false);
+            }
             "cuts" => {
                 let cuts = on!(self, step, Surface).cuts()?;
                 let rows = cuts.iter().map(|c| [c.triangle, c.corner, c.vertex, c.copied]);
@@ -917,7 +947,7 @@ impl<'a> Scene<'a> {
             | "undo_weights" | "redo_weights" | "clone_weights" | "weights_info" | "joint_flags"
             | "helpers" | "skin_weights" | "transfer_weights" | "mirror" => self.weights_step(what, step),
             "update_quads" | "edit_surface" | "report" | "surface_info" | "surface_statistics"
-            | "components" | "cuts" | "save" | "cast_ray" | "find_vertex" | "levels" | "isolines"
+            | "components" | "cuts" | "cut_surface" | "save" | "cast_ray" | "find_vertex" | "levels" | "isolines"
             | "critical" | "extremities" | "propose" | "solver" | "geodesics" | "direction"
             | "flow" | "pose" | "region" | "quads" => self.surface_step(what, step),
             _ => panic!("unknown step {what}"),

@@ -69,6 +69,9 @@ struct Result {
   std::map<std::string, double> fields;
 };
 
+// six numbers for each place: three corners, three barycentrics
+std::vector<hf_place> places_of(const Json& step);
+
 // Option names and the places they stand for.
 using OptionPlace = std::variant<int32_t*, uint32_t*, double*>;
 inline void set_options(const Json& step, const std::map<std::string, OptionPlace>& places) {

@@ -12,7 +12,7 @@ const std::set<std::string> direction_steps = {"add_vectors",   "remove_vectors"
                                                "rotate",        "record_vectors", "undo_vectors", "redo_vectors",
                                                "clone_vectors", "vectors",        "directions",   "singularities"};
 const std::set<std::string> mesh_steps = {"report", "surface_statistics", "surface_info", "components",
-                                          "save",   "edit_surface",       "cuts"};
+                                          "save",   "edit_surface",       "cuts",         "cut_surface"};
 const std::set<std::string> region_steps = {"region",          "region_edit",  "region_info",
                                             "region_vertices", "region_curve", "record_region",
                                             "undo_region",     "redo_region",  "morph"};
@@ -30,8 +30,8 @@ hf_place place_of(const Json& step, const char* key) {
   }
   return point;
 }
+}  // namespace
 
-// six numbers for each place: three corners, three barycentrics
 std::vector<hf_place> places_of(const Json& step) {
   std::vector<hf_place> list;
   if (!step.contains("places")) return list;
@@ -46,7 +46,6 @@ std::vector<hf_place> places_of(const Json& step) {
   }
   return list;
 }
-}  // namespace
 
 Result Scene::run_solver(const Json& step) {
   auto desc = make<hf_solver_desc>();

@@ -213,6 +213,33 @@ Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface sur
     result.array.emplace(components.begin(), components.end());
   } else if (what == "edit_surface") {
     edit_surface(step, surface);
+  } else if (what == "cut_surface") {
+    const auto places = places_of(step);
+    auto line = make<hf_cut_desc>();
+    line.point_count = static_cast<uint32_t>(places.size());
+    line.places = places.data();
+    auto cut = make<hf_cut>();
+    check(hf_surface_trace_cut(surface, &line, &cut));
+    Numbers gone(cut.removed_triangle_count), corners(3 * cut.new_triangle_count), sources(cut.new_triangle_count);
+    Doubles positions(3 * cut.new_vertex_count), weights(9 * cut.new_triangle_count);
+    cut.removed_triangle_capacity = cut.removed_triangle_count;
+    cut.new_vertex_capacity = cut.new_vertex_count;
+    cut.new_triangle_capacity = cut.new_triangle_count;
+    cut.removed_triangles = gone.data();
+    cut.new_positions = positions.data();
+    cut.new_triangles = corners.data();
+    cut.corner_barycentrics = weights.data();
+    cut.source_triangles = sources.data();
+    check(hf_surface_trace_cut(surface, &line, &cut));
+    edit_surface(
+        {{"as", step["as"]}, {"removed_triangles", gone}, {"new_positions", positions}, {"new_triangles", corners}},
+        surface);
+    result.array.emplace();
+    for (size_t t = 0; t < sources.size(); ++t) {
+      result.array->push_back(sources[t]);
+      result.array->insert(result.array->end(), &corners[3 * t], &corners[3 * t] + 3);
+      result.array->insert(result.array->end(), &weights[9 * t], &weights[9 * t] + 9);
+    }
   } else if (what == "cuts") {
     uint32_t size = 0;
     check(hf_surface_get_cuts(surface, 0, nullptr, &size));

@@ -45,6 +45,17 @@ void Run::edits(hf_surface surface) {
     const double row[2] = {static_cast<double>(corners[i].triangle), static_cast<double>(corners[i].vertex)};
     take(row, 2);
   }
+  hf_cut_desc line = desc<hf_cut_desc>();
+  const std::uint32_t ends[2] = {s.triangles[0], s.triangles[3 * (s.triangles.size() / 6)]};
+  line.point_count = 2;
+  line.vertices = ends;
+  hf_cut cut = desc<hf_cut>();
+  call(hf_surface_trace_cut(surface, &line, &cut), "hf_surface_trace_cut");
+  Numbers places(3 * cut.new_vertex_count);
+  cut.new_vertex_capacity = cut.new_vertex_count;
+  cut.new_positions = places.data();
+  call(hf_surface_trace_cut(surface, &line, &cut), "hf_surface_trace_cut");
+  take(places.data(), places.size());
   hf_surface_destroy(open);
   hf_surface_destroy(stiff);
   hf_solver_destroy(solver);

@@ -1814,6 +1814,32 @@ namespace Hf
         }
     }
 
+    /// <summary>A cut as triangles that go and come. The first three arrays fit PatchDesc. New vertices and triangles have
+    /// the numbers after the last ones of your mesh. The arrays are yours: each is null or as large as its
+    /// capacity.</summary>
+    public sealed class Cut
+    {
+        /// <summary>[removedTriangleCapacity] triangles of your mesh, ascending</summary>
+        public uint[] RemovedTriangles;
+        /// <summary>[newVertexCapacity x 3] in the unit of your mesh</summary>
+        public double[] NewPositions;
+        /// <summary>[newTriangleCapacity x 3] vertices of your mesh, the first of welded copies, and new ones</summary>
+        public uint[] NewTriangles;
+        /// <summary>[newVertexCapacity x 3] vertices of your mesh; the new vertex lies between them. Mix their attributes,
+        /// as skin weights. uint.MaxValue where a weight is 0</summary>
+        public uint[] VertexCorners;
+        /// <summary>[newVertexCapacity x 3] their weights, of sum 1. A single 1 copies a vertex</summary>
+        public double[] VertexBarycentrics;
+        /// <summary>[newTriangleCapacity] the removed triangle that each new one is a part of</summary>
+        public uint[] SourceTriangles;
+        /// <summary>[newTriangleCapacity x 3 x 3] three weights for each corner of a new triangle, of the corners of its
+        /// source: for what corners have, as UVs at seams</summary>
+        public double[] CornerBarycentrics;
+        /// <summary>[rimCapacity x 2] along the line: the vertex on its left and that on its right; one and the same where
+        /// the line ends inside the surface. At a border between its ends: those after it</summary>
+        public uint[] RimVertices;
+    }
+
     /// <summary>Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 -
     /// parameter) a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours:
     /// each is null or as large as its capacity.</summary>
@@ -2817,6 +2843,89 @@ namespace Hf
                 HfException.Check(Functions.hf_surface_save(RawHandle, (int)fieldKind, c.Handle(progress),
                     (UIntPtr)block.Length, (void*)c.Pin(block), &size));
                 return block;
+            }
+        }
+
+        /// <summary>Turns a line on the surface into a cut through triangles. Give the arrays to Surface.Edit as a patch,
+        /// and change your mesh in the same way. The surface itself does not change.
+        ///
+        /// A line from border to border, or a closed line around a part, parts it from the rest. A line that starts
+        /// at the border opens it. An end inside the surface stays closed. The line may pass vertices and run along
+        /// edges. It is straight where its triangles are unfolded, and bends at its points and at vertices only.
+        /// The parts of a triangle are a Delaunay triangulation of it. Points are whole multiples of 2^-29 of an
+        /// edge. On a mesh whose triangles are turned alike, left is left for a viewer who looks at the outside
+        /// along the line. New vertices have the stiffness 1.
+        ///
+        /// vertices: [pointCount] vertices of your mesh, or null
+        /// places: [pointCount], or null
+        /// points: [pointCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each
+        ///     stands for the nearest point of the surface, up to two boxes away
+        /// snapShare: a point nearer to a vertex than this share of its edge becomes the vertex, and one nearer to
+        ///     an edge than this share of the height moves onto the edge. So no slivers come in. From 1e-6 to 0.4;
+        ///     0 = 0.05
+        /// crossingLimit: refuse a line of more points and crossings of edges; 0 = 1,000,000
+        /// progress: an object to poll and cancel through
+        ///
+        /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT,
+        /// HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL,
+        /// HF_ERROR_UNSUPPORTED.</summary>
+        public Cut TraceCut(uint[] vertices = null, Place[] places = null, double[] points = null, double snapShare = 0,
+                uint crossingLimit = 0, Progress progress = null)
+        {
+            using (var c = new Call(this))
+            {
+                var descStruct = new hf_cut_desc { struct_size = (uint)sizeof(hf_cut_desc), snap_share = snapShare,
+                    crossing_limit = crossingLimit };
+                hf_cut_desc* desc = &descStruct;
+                desc->vertices = (IntPtr)c.Array(vertices, "vertices", "point_count");
+                var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "point_count");
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(c, placesRows + i);
+                desc->places = (IntPtr)placesRows;
+                desc->points = (IntPtr)c.Array(points, "points", "point_count", "3");
+                desc->progress = c.Handle(progress);
+                desc->point_count = (uint)c.Count("point_count", 0);
+                var cutStruct = new hf_cut { struct_size = (uint)sizeof(hf_cut) };
+                hf_cut* cut = &cutStruct;
+                uint[] allRemovedTriangles = null;
+                double[] allNewPositions = null;
+                uint[] allNewTriangles = null;
+                uint[] allVertexCorners = null;
+                double[] allVertexBarycentrics = null;
+                uint[] allSourceTriangles = null;
+                double[] allCornerBarycentrics = null;
+                uint[] allRimVertices = null;
+                c.Room("removed_triangle_capacity", "hf_surface_trace_cut.removed_triangle_capacity");
+                c.Room("new_vertex_capacity", "hf_surface_trace_cut.new_vertex_capacity");
+                c.Room("new_triangle_capacity", "hf_surface_trace_cut.new_triangle_capacity");
+                c.Room("rim_capacity", "hf_surface_trace_cut.rim_capacity");
+                int result;
+                do
+                {
+                        cut->removed_triangle_capacity = (uint)c.Size("removed_triangle_capacity");
+                        cut->new_vertex_capacity = (uint)c.Size("new_vertex_capacity");
+                        cut->new_triangle_capacity = (uint)c.Size("new_triangle_capacity");
+                        cut->rim_capacity = (uint)c.Size("rim_capacity");
+                        cut->removed_triangles = c.Make(out allRemovedTriangles, "removed_triangle_capacity");
+                        cut->new_positions = c.Make(out allNewPositions, "new_vertex_capacity", "3");
+                        cut->new_triangles = c.Make(out allNewTriangles, "new_triangle_capacity", "3");
+                        cut->vertex_corners = c.Make(out allVertexCorners, "new_vertex_capacity", "3");
+                        cut->vertex_barycentrics = c.Make(out allVertexBarycentrics, "new_vertex_capacity", "3");
+                        cut->source_triangles = c.Make(out allSourceTriangles, "new_triangle_capacity");
+                        cut->corner_barycentrics = c.Make(out allCornerBarycentrics, "new_triangle_capacity", "3", "3");
+                        cut->rim_vertices = c.Make(out allRimVertices, "rim_capacity", "2");
+                        result = Functions.hf_surface_trace_cut(RawHandle, desc, cut);
+                }
+                while (c.Again("hf_surface_trace_cut", result, ("removed_triangle_capacity",
+                    cut->removed_triangle_count), ("new_vertex_capacity", cut->new_vertex_count),
+                    ("new_triangle_capacity", cut->new_triangle_count), ("rim_capacity", cut->rim_count)));
+                return new Cut { RemovedTriangles = c.Cut(allRemovedTriangles, "removed_triangle_capacity"),
+                    NewPositions = c.Cut(allNewPositions, "new_vertex_capacity", "3"),
+                    NewTriangles = c.Cut(allNewTriangles, "new_triangle_capacity", "3"),
+                    VertexCorners = c.Cut(allVertexCorners, "new_vertex_capacity", "3"),
+                    VertexBarycentrics = c.Cut(allVertexBarycentrics, "new_vertex_capacity", "3"),
+                    SourceTriangles = c.Cut(allSourceTriangles, "new_triangle_capacity"),
+                    CornerBarycentrics = c.Cut(allCornerBarycentrics, "new_triangle_capacity", "3", "3"),
+                    RimVertices = c.Cut(allRimVertices, "rim_capacity", "2") };
             }
         }
 

@@ -470,6 +470,43 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_cut_desc
+    {
+        public uint struct_size;
+        public uint point_count;
+        public IntPtr vertices;
+        public IntPtr places;
+        public IntPtr points;
+        public double snap_share;
+        public uint crossing_limit;
+        public uint reserved;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_cut
+    {
+        public uint struct_size;
+        public uint removed_triangle_capacity;
+        public uint new_vertex_capacity;
+        public uint new_triangle_capacity;
+        public uint rim_capacity;
+        public uint removed_triangle_count;
+        public uint new_vertex_count;
+        public uint new_triangle_count;
+        public uint rim_count;
+        public uint reserved;
+        public IntPtr removed_triangles;
+        public IntPtr new_positions;
+        public IntPtr new_triangles;
+        public IntPtr vertex_corners;
+        public IntPtr vertex_barycentrics;
+        public IntPtr source_triangles;
+        public IntPtr corner_barycentrics;
+        public IntPtr rim_vertices;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_pick_desc
     {
         public uint struct_size;
@@ -1477,6 +1514,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_stiffness(IntPtr surface, uint capacity, void* out_stiffness, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_statistics(IntPtr surface, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_save(IntPtr surface, int field_kind, IntPtr progress, UIntPtr capacity, void* out_bytes, void* out_size);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_trace_cut(IntPtr surface, void* desc, void* inout_cut);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_cast_ray(IntPtr surface, void* origin, void* direction, void* desc, void* out_hit);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_vertex(IntPtr surface, void* point, void* desc, void* out_vertex, void* out_distance);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_create(IntPtr surface, void* desc, void* out_solver);

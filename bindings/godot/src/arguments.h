@@ -15,6 +15,9 @@ inline const Argument& at(const Arguments& arguments, size_t i) {
   return i < arguments.size() ? arguments[i] : missing;
 }
 
+// Six numbers for each place: three corners of a triangle, three weights.
+std::vector<hf_place> places_of(const Argument& argument);
+
 struct List {  // uint32 numbers; a missing list counts one, so that the library says what is missing
   Numbers values;
   bool null = true;

@@ -159,7 +159,49 @@ Value edit_cut(Surface& s, const Arguments& a) {
   return rows_of_cuts(cuts_of(s), before);
 }
 
-// cuts(): such rows of all cuts since the surface was made
+// edit_line(places): six numbers each, three corners of a triangle and their weights. Returns a row for every new
+// triangle: the triangle that it is a part of, its vertices a, b and c, and by a0 to c2 where these lie in it
+Value edit_line(Surface& s, const Arguments& a) {
+  const std::vector<hf_place> places = places_of(at(a, 0));
+  auto desc = make<hf_cut_desc>();
+  desc.point_count = static_cast<uint32_t>(places.size());
+  desc.places = places.data();
+  auto cut = make<hf_cut>();
+  check(hf_surface_trace_cut(s.get(), &desc, &cut));
+  Numbers removed(cut.removed_triangle_count), triangles(3 * cut.new_triangle_count), sources(cut.new_triangle_count);
+  Doubles positions(3 * cut.new_vertex_count), weights(9 * cut.new_triangle_count);
+  cut.removed_triangle_capacity = cut.removed_triangle_count;
+  cut.new_vertex_capacity = cut.new_vertex_count;
+  cut.new_triangle_capacity = cut.new_triangle_count;
+  cut.removed_triangles = removed.data();
+  cut.new_positions = positions.data();
+  cut.new_triangles = triangles.data();
+  cut.source_triangles = sources.data();
+  cut.corner_barycentrics = weights.data();
+  check(hf_surface_trace_cut(s.get(), &desc, &cut));
+  auto patch = make<hf_patch_desc>();
+  patch.removed_triangle_count = cut.removed_triangle_count;
+  patch.removed_triangles = removed.data();
+  patch.new_vertex_count = cut.new_vertex_count;
+  patch.new_positions = positions.data();
+  patch.new_triangle_count = cut.new_triangle_count;
+  patch.new_triangles = triangles.data();
+  edit_patch_in_place(s, patch);
+  Value value;
+  value.kind = Value::rows;
+  for (size_t t = 0; t < sources.size(); ++t) {
+    std::map<std::string, double> row = {{"triangle", sources[t]}};
+    for (size_t k = 0; k < 3; ++k) {
+      const std::string corner(1, static_cast<char>('a' + k));
+      row[corner] = triangles[3 * t + k];
+      for (size_t w = 0; w < 3; ++w) row[corner + std::to_string(w)] = weights[9 * t + 3 * k + w];
+    }
+    value.table.push_back(std::move(row));
+  }
+  return value;
+}
+
+// cuts(): rows as of edit_cut, of all cuts since the surface was made
 Value cuts(Surface& s, const Arguments&) { return rows_of_cuts(cuts_of(s), 0); }
 
 // move_to(surface): goes over to a surface that edits made from this one's, or this one's from it
@@ -228,8 +270,9 @@ Value pieces(Surface& s, const Arguments&) {
 
 const std::vector<Entry>& edit_methods() {
   static const std::vector<Entry> all = {
-      {"edit", 2, 4, edit}, {"edit_patch", 1, 3, edit_patch}, {"edit_cut", 1, 1, edit_cut}, {"move_to", 1, 1, move_to},
-      {"cuts", 0, 0, cuts}, {"stiffness", 0, 0, stiffness},   {"links", 0, 0, links},       {"pieces", 0, 0, pieces}};
+      {"edit", 2, 4, edit},           {"edit_patch", 1, 3, edit_patch}, {"edit_cut", 1, 1, edit_cut},
+      {"edit_line", 1, 1, edit_line}, {"move_to", 1, 1, move_to},       {"cuts", 0, 0, cuts},
+      {"stiffness", 0, 0, stiffness}, {"links", 0, 0, links},           {"pieces", 0, 0, pieces}};
   return all;
 }
 

@@ -7,9 +7,6 @@ hf_solver solver_of(Surface& s) {
   return make_once(s.solver, [&](hf_solver* out) { return hf_create(s.get(), nullptr, out); });
 }
 
-namespace {
-
-// Six numbers for each place: three corners of a triangle, three weights.
 std::vector<hf_place> places_of(const Argument& argument) {
   const Doubles& list = argument.list;
   if (list.size() % 6 != 0) fail("places must hold three corners and three weights each");
@@ -23,6 +20,8 @@ std::vector<hf_place> places_of(const Argument& argument) {
   }
   return places;
 }
+
+namespace {
 
 // solver_create(options = {}): replaces the solver; without it the first call makes one of defaults
 Value solver_create(Surface& s, const Arguments& a) {

@@ -115,6 +115,19 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     return desc;
   };
 
+  const cutDesc = (c, prefix, options) => {
+    const { vertices = null, places = null, points = null, snapShare = 0, crossingLimit = 0, progress = null,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_cut_desc', { snap_share: snapShare, crossing_limit: crossingLimit });
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'point_count']));
+    desc.set('places', c.rows('places', places, [prefix + 'point_count'], c.place));
+    desc.set('points', c.array('points', points, 'f8', [prefix + 'point_count', 3]));
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    desc.set('point_count', (c.n[prefix + 'point_count'] ??= 0));
+    return desc;
+  };
+
   const pickDesc = (c, prefix, options) => {
     const { positions = null, frontOnly = false, ...more } = options;
     none(more);
@@ -648,6 +661,34 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       call('hf_surface_save', this._handle, fieldKind, handleOf(progress, Progress, 'progress'), block.length,
               written(block), written(size));
       return block;
+    }
+
+    traceCut(options = {}) {
+      const c = new Call(this);
+      const desc = cutDesc(c, '', options);
+      const cut = c.struct('hf_cut', {});
+      const found = c.grow(this, 'hf_surface_trace_cut', (room, made) => (cut.set('removed_triangle_capacity',
+              room.removed_triangle_capacity).set('new_vertex_capacity',
+              room.new_vertex_capacity).set('new_triangle_capacity', room.new_triangle_capacity).set('rim_capacity',
+              room.rim_capacity).set('removed_triangles', written(made.removedTriangles)).set('new_positions',
+              written(made.newPositions)).set('new_triangles', written(made.newTriangles)).set('vertex_corners',
+              written(made.vertexCorners)).set('vertex_barycentrics',
+              written(made.vertexBarycentrics)).set('source_triangles',
+              written(made.sourceTriangles)).set('corner_barycentrics',
+              written(made.cornerBarycentrics)).set('rim_vertices', written(made.rimVertices)),
+              call('hf_surface_trace_cut', this._handle, desc, cut)),
+              () => ({ removed_triangle_capacity: cut.get('removed_triangle_count'),
+              new_vertex_capacity: cut.get('new_vertex_count'), new_triangle_capacity: cut.get('new_triangle_count'),
+              rim_capacity: cut.get('rim_count') }), { removed_triangle_capacity: null, new_vertex_capacity: null,
+              new_triangle_capacity: null, rim_capacity: null }, { removedTriangles: ['u4',
+              ['removed_triangle_capacity']], newPositions: ['f8', ['new_vertex_capacity', 3]], newTriangles: ['u4',
+              ['new_triangle_capacity', 3]], vertexCorners: ['u4', ['new_vertex_capacity', 3]],
+              vertexBarycentrics: ['f8', ['new_vertex_capacity', 3]], sourceTriangles: ['u4',
+              ['new_triangle_capacity']], cornerBarycentrics: ['f8', ['new_triangle_capacity', 3, 3]],
+              rimVertices: ['u4', ['rim_capacity', 2]] });
+      return { ...found, removedTriangleCount: cut.get('removed_triangle_count'),
+              newVertexCount: cut.get('new_vertex_count'), newTriangleCount: cut.get('new_triangle_count'),
+              rimCount: cut.get('rim_count') };
     }
 
     castRay(origin, direction, options = {}) {

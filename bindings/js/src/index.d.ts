@@ -245,6 +245,43 @@ export interface Place {
   barycentrics: number[];
 }
 
+/**
+ * A cut as triangles that go and come. The first three arrays fit hf_patch_desc. New vertices and triangles have
+ * the numbers after the last ones of your mesh. The arrays are yours: each is null or as large as its capacity.
+ */
+export interface Cut {
+  removedTriangleCount: number;
+  newVertexCount: number;
+  newTriangleCount: number;
+  /** points of the line; the first of a closed line is not repeated */
+  rimCount: number;
+  /** [removedTriangleCapacity] triangles of your mesh, ascending */
+  removedTriangles: Uint32Array;
+  /** [newVertexCapacity x 3] in the unit of your mesh */
+  newPositions: Float64Array;
+  /** [newTriangleCapacity x 3] vertices of your mesh, the first of welded copies, and new ones */
+  newTriangles: Uint32Array;
+  /**
+   * [newVertexCapacity x 3] vertices of your mesh; the new vertex lies between them. Mix their attributes, as skin
+   * weights. constants.HF_NO_INDEX where a weight is 0
+   */
+  vertexCorners: Uint32Array;
+  /** [newVertexCapacity x 3] their weights, of sum 1. A single 1 copies a vertex */
+  vertexBarycentrics: Float64Array;
+  /** [newTriangleCapacity] the removed triangle that each new one is a part of */
+  sourceTriangles: Uint32Array;
+  /**
+   * [newTriangleCapacity x 3 x 3] three weights for each corner of a new triangle, of the corners of its source:
+   * for what corners have, as UVs at seams
+   */
+  cornerBarycentrics: Float64Array;
+  /**
+   * [rimCapacity x 2] along the line: the vertex on its left and that on its right; one and the same where the
+   * line ends inside the surface. At a border between its ends: those after it
+   */
+  rimVertices: Uint32Array;
+}
+
 /** Surface.castRay writes the first triangle that a ray hits here. */
 export interface Hit {
   /** 1: a triangle was hit; 0: none, and all else is 0 or constants.HF_NO_INDEX */
@@ -1396,6 +1433,30 @@ export interface Surface extends Handle {
    * Throws HF_ERROR_CANCELLED, HF_ERROR_TOO_SMALL.
    */
   save(fieldKind?: number, options?: { progress?: Progress | null }): Uint8Array;
+  /**
+   * Turns a line on the surface into a cut through triangles. Give the arrays to Surface.edit as a patch, and
+   * change your mesh in the same way. The surface itself does not change.
+   *
+   * A line from border to border, or a closed line around a part, parts it from the rest. A line that starts at
+   * the border opens it. An end inside the surface stays closed. The line may pass vertices and run along edges.
+   * It is straight where its triangles are unfolded, and bends at its points and at vertices only. The parts of a
+   * triangle are a Delaunay triangulation of it. Points are whole multiples of 2^-29 of an edge. On a mesh whose
+   * triangles are turned alike, left is left for a viewer who looks at the outside along the line. New vertices
+   * have the stiffness 1.
+   *
+   * vertices: [pointCount] vertices of your mesh, or null
+   * places: [pointCount], or null
+   * points: [pointCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+   *     the nearest point of the surface, up to two boxes away
+   * snapShare: a point nearer to a vertex than this share of its edge becomes the vertex, and one nearer to an
+   *     edge than this share of the height moves onto the edge. So no slivers come in. From 1e-6 to 0.4; 0 = 0.05
+   * crossingLimit: refuse a line of more points and crossings of edges; 0 = 1,000,000
+   * progress: an object to poll and cancel through
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.
+   */
+  traceCut(options?: { vertices?: Rows | null; places?: readonly PlaceGiven[] | null; points?: Rows | null; snapShare?: number; crossingLimit?: number; progress?: Progress | null }): Cut;
   /**
    * Finds what a mouse click hits: the first triangle on a ray.
    *

@@ -485,6 +485,35 @@ class MirrorPairing(IntEnum):
     GIVEN = _raw.HF_MIRROR_JOINT_GIVEN
 
 
+class Cut(NamedTuple):
+    """A cut as triangles that go and come. The first three arrays fit hf_patch_desc. New vertices and triangles have the
+    numbers after the last ones of your mesh. The arrays are yours: each is None or as large as its capacity.
+    """
+
+    removed_triangles: np.ndarray
+    """(removed_triangle_capacity,) triangles of your mesh, ascending"""
+    new_positions: np.ndarray
+    """(new_vertex_capacity, 3) in the unit of your mesh"""
+    new_triangles: np.ndarray
+    """(new_triangle_capacity, 3) vertices of your mesh, the first of welded copies, and new ones"""
+    vertex_corners: np.ndarray
+    """(new_vertex_capacity, 3) vertices of your mesh; the new vertex lies between them. Mix their attributes, as skin
+    weights. NO_INDEX where a weight is 0
+    """
+    vertex_barycentrics: np.ndarray
+    """(new_vertex_capacity, 3) their weights, of sum 1. A single 1 copies a vertex"""
+    source_triangles: np.ndarray
+    """(new_triangle_capacity,) the removed triangle that each new one is a part of"""
+    corner_barycentrics: np.ndarray
+    """(new_triangle_capacity, 3, 3) three weights for each corner of a new triangle, of the corners of its source: for
+    what corners have, as UVs at seams
+    """
+    rim_vertices: np.ndarray
+    """(rim_capacity, 2) along the line: the vertex on its left and that on its right; one and the same where the line
+    ends inside the surface. At a border between its ends: those after it
+    """
+
+
 class Isolines(NamedTuple):
     """Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 -
     parameter) a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each
@@ -770,6 +799,18 @@ def _surface_edit_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLik
     desc.vertex_count = c.n.setdefault(prefix + 'vertex_count', 0)
     desc.link_count = c.n.setdefault(prefix + 'link_count', 0)
     desc.removed_link_count = c.n.setdefault(prefix + 'removed_link_count', 0)
+    return desc
+
+
+def _cut_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
+        places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None, snap_share: float = 0.0,
+        crossing_limit: int = 0, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_cut_desc, {'snap_share': snap_share, 'crossing_limit': crossing_limit})
+    desc.vertices = c.array('vertices', vertices, 'u4', (prefix + 'point_count',))
+    desc.places = c.places('places', places, (prefix + 'point_count',))
+    desc.points = c.array('points', points, 'f8', (prefix + 'point_count', 3))
+    desc.progress = handle_of(progress, Progress, 'progress')
+    desc.point_count = c.n.setdefault(prefix + 'point_count', 0)
     return desc
 
 
@@ -1486,6 +1527,52 @@ class Surface(Object):
         call('hf_surface_save', self._handle, number(field_kind, 'field_kind', ctypes.c_int32, flag=False),
                 handle_of(progress, Progress, 'progress'), block.size, address(block), ref(size))
         return block.tobytes()
+
+    def trace_cut(self, vertices: Optional[ArrayLike] = None, places: Optional[Sequence[PlaceLike]] = None,
+            points: Optional[ArrayLike] = None, *, snap_share: float = 0.0, crossing_limit: int = 0,
+            progress: Optional[Progress] = None) -> Cut:
+        """Turns a line on the surface into a cut through triangles. Give the arrays to Surface.edit as a patch, and
+        change your mesh in the same way. The surface itself does not change.
+
+        A line from border to border, or a closed line around a part, parts it from the rest. A line that starts at
+        the border opens it. An end inside the surface stays closed. The line may pass vertices and run along edges.
+        It is straight where its triangles are unfolded, and bends at its points and at vertices only. The parts of a
+        triangle are a Delaunay triangulation of it. Points are whole multiples of 2^-29 of an edge. On a mesh whose
+        triangles are turned alike, left is left for a viewer who looks at the outside along the line. New vertices
+        have the stiffness 1.
+
+        vertices: (point_count,) vertices of your mesh, or None
+        places: (point_count,), or None
+        points: (point_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
+            the nearest point of the surface, up to two boxes away
+        snap_share: a point nearer to a vertex than this share of its edge becomes the vertex, and one nearer to an
+            edge than this share of the height moves onto the edge. So no slivers come in. From 1e-6 to 0.4; 0 = 0.05
+        crossing_limit: refuse a line of more points and crossings of edges; 0 = 1,000,000
+        progress: an object to poll and cancel through
+
+        Raises CancelledError, ConflictError, EmptyError, InvalidArgumentError, NonFiniteError, NotFoundError,
+        OutOfRangeError, TooLargeError, TooSmallError, UnsupportedError.
+        """
+        c = Call(self)
+        desc = _cut_desc(c, vertices=vertices, places=places, points=points, snap_share=snap_share,
+                crossing_limit=crossing_limit, progress=progress)
+        cut = c.struct(_raw.hf_cut, {})
+
+        def run(room: Any, made: Any) -> None:
+            c.into(cut, room, made)
+            call('hf_surface_trace_cut', self._handle, ref(desc), ref(cut))
+
+        found = c.grow(self, 'hf_surface_trace_cut', run,
+                lambda: {'removed_triangle_capacity': cut.removed_triangle_count,
+                'new_vertex_capacity': cut.new_vertex_count, 'new_triangle_capacity': cut.new_triangle_count,
+                'rim_capacity': cut.rim_count}, {'removed_triangle_capacity': None, 'new_vertex_capacity': None,
+                'new_triangle_capacity': None, 'rim_capacity': None}, {'removed_triangles': (np.uint32,
+                ('removed_triangle_capacity',)), 'new_positions': (np.float64, ('new_vertex_capacity', 3)),
+                'new_triangles': (np.uint32, ('new_triangle_capacity', 3)), 'vertex_corners': (np.uint32,
+                ('new_vertex_capacity', 3)), 'vertex_barycentrics': (np.float64, ('new_vertex_capacity', 3)),
+                'source_triangles': (np.uint32, ('new_triangle_capacity',)), 'corner_barycentrics': (np.float64,
+                ('new_triangle_capacity', 3, 3)), 'rim_vertices': (np.uint32, ('rim_capacity', 2))})
+        return Cut(**found)
 
     def cast_ray(self, origin: ArrayLike, direction: ArrayLike, positions: Optional[ArrayLike] = None, *,
             front_only: bool = False) -> Optional[Hit]:
@@ -3852,16 +3939,16 @@ class Weights(Recorded):
 
 __all__ = [
     'Base', 'BlendInfluences', 'BlendInfo', 'BlendRows', 'BodySide', 'Certificate', 'Chain', 'ChainMatch',
-    'Critical', 'CriticalInfo', 'CriticalPoint', 'CurveKind', 'CutCorner', 'DeformInfo', 'Detail', 'Direction',
-    'DirectionStatistics', 'DistanceMethod', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo',
-    'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines',
-    'JointFlag', 'JointInfo', 'JointKind', 'Levels', 'Link', 'LinkMode', 'LinksInfo', 'MeshStatistics',
-    'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo', 'Path', 'Place',
-    'Pose', 'PoseInfo', 'PoseStatistics', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region',
-    'RegionInfo', 'RegionList', 'RegionStatistics', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role',
-    'RootMotion', 'Route', 'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo',
-    'SkinInfo', 'SolveInfo', 'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo',
-    'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode',
-    'TransferStatistics', 'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsMirrorStatistics',
-    'WeightsOrigin', 'WeightsOut', 'WeightsStatistics', 'WeightsTransferInfo', 'Weld'
+    'Critical', 'CriticalInfo', 'CriticalPoint', 'CurveKind', 'Cut', 'CutCorner', 'DeformInfo', 'Detail',
+    'Direction', 'DirectionStatistics', 'DistanceMethod', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow',
+    'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal', 'HandleReason', 'HelperReason', 'Hit',
+    'Isolines', 'JointFlag', 'JointInfo', 'JointKind', 'Levels', 'Link', 'LinkMode', 'LinksInfo',
+    'MeshStatistics', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo',
+    'Path', 'Place', 'Pose', 'PoseInfo', 'PoseStatistics', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo',
+    'QuadsMesh', 'Region', 'RegionInfo', 'RegionList', 'RegionStatistics', 'Retarget', 'RetargetInfo',
+    'RetargetStep', 'Role', 'RootMotion', 'Route', 'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton',
+    'SkeletonInfo', 'SkinInfo', 'SolveInfo', 'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface',
+    'SurfaceInfo', 'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo',
+    'TransferMode', 'TransferStatistics', 'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo',
+    'WeightsMirrorStatistics', 'WeightsOrigin', 'WeightsOut', 'WeightsStatistics', 'WeightsTransferInfo', 'Weld'
 ]

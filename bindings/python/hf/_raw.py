@@ -546,6 +546,50 @@ class hf_place(Struct):
     _fields_ = [("corners", c_uint32 * 3), ("reserved", c_uint32), ("barycentrics", c_double * 3)]
 
 
+class hf_cut_desc(Struct):
+    """Describes the line of a knife"""
+    struct_size: int
+    point_count: int
+    vertices: int
+    places: int
+    points: int
+    snap_share: float
+    crossing_limit: int
+    reserved: int
+    progress: int
+    _fields_ = [("struct_size", c_uint32), ("point_count", c_uint32), ("vertices", c_void_p), ("places", c_void_p),
+                ("points", c_void_p), ("snap_share", c_double), ("crossing_limit", c_uint32), ("reserved", c_uint32),
+                ("progress", c_void_p)]
+
+
+class hf_cut(Struct):
+    """A cut as triangles that go and come."""
+    struct_size: int
+    removed_triangle_capacity: int
+    new_vertex_capacity: int
+    new_triangle_capacity: int
+    rim_capacity: int
+    removed_triangle_count: int
+    new_vertex_count: int
+    new_triangle_count: int
+    rim_count: int
+    reserved: int
+    removed_triangles: int
+    new_positions: int
+    new_triangles: int
+    vertex_corners: int
+    vertex_barycentrics: int
+    source_triangles: int
+    corner_barycentrics: int
+    rim_vertices: int
+    _fields_ = [("struct_size", c_uint32), ("removed_triangle_capacity", c_uint32), ("new_vertex_capacity", c_uint32),
+                ("new_triangle_capacity", c_uint32), ("rim_capacity", c_uint32), ("removed_triangle_count", c_uint32),
+                ("new_vertex_count", c_uint32), ("new_triangle_count", c_uint32), ("rim_count", c_uint32),
+                ("reserved", c_uint32), ("removed_triangles", c_void_p), ("new_positions", c_void_p),
+                ("new_triangles", c_void_p), ("vertex_corners", c_void_p), ("vertex_barycentrics", c_void_p),
+                ("source_triangles", c_void_p), ("corner_barycentrics", c_void_p), ("rim_vertices", c_void_p)]
+
+
 class hf_pick_desc(Struct):
     """Options of picking"""
     struct_size: int
@@ -1640,7 +1684,7 @@ class hf_weights_mirror_statistics(Struct):
                 ("worst_vertex_off", c_double)]
 
 
-STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_mesh_statistics, hf_links_info, hf_gaps_info, hf_patch_desc, hf_surface_edit_desc, hf_cut_corner, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_pose_statistics, hf_skin_info, hf_blend_info, hf_blend_rows, hf_blend_influences, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_statistics, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_weights_mirror_statistics]
+STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_mesh_statistics, hf_links_info, hf_gaps_info, hf_patch_desc, hf_surface_edit_desc, hf_cut_corner, hf_surface_statistics, hf_place, hf_cut_desc, hf_cut, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_pose_statistics, hf_skin_info, hf_blend_info, hf_blend_rows, hf_blend_influences, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_statistics, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_weights_mirror_statistics]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1668,6 +1712,7 @@ PROTOTYPES = {
     "hf_surface_get_stiffness": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_surface_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_save": (c_int32, [c_void_p, c_int32, c_void_p, c_size_t, c_void_p, c_void_p]),
+    "hf_surface_trace_cut": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_surface_cast_ray": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_surface_find_vertex": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_create": (c_int32, [c_void_p, c_void_p, c_void_p]),

@@ -335,6 +335,48 @@ impl<'a> SurfaceEdit<'a> {
     }
 }
 
+/// Describes the line of a knife: points on the surface, each joined to the next by the shortest path along triangles.
+/// Set one of vertices, places and points. A line whose last point is its first is closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CutOptions<'a> {
+    /// `[point_count]` vertices of your mesh, or `None`
+    pub vertices: Option<&'a [u32]>,
+    /// `[point_count]`, or `None`
+    pub places: Option<&'a [raw::hf_place]>,
+    /// `[point_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for the
+    /// nearest point of the surface, up to two boxes away
+    pub points: Option<&'a [f64]>,
+    /// a point nearer to a vertex than this share of its edge becomes the vertex, and one nearer to an edge than this
+    /// share of the height moves onto the edge. So no slivers come in. From 1e-6 to 0.4; 0 = 0.05
+    pub snap_share: f64,
+    /// refuse a line of more points and crossings of edges; 0 = 1,000,000
+    pub crossing_limit: u32,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> CutOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "snap_share" => self.snap_share = value,
+            "crossing_limit" => self.crossing_limit = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
+        }
+        Ok(())
+    }
+
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_cut_desc> {
+        let mut desc = raw::hf_cut_desc { snap_share: self.snap_share, crossing_limit: self.crossing_limit,
+            ..Default::default() };
+        desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}point_count")])?;
+        desc.places = c.array(self.places, "places", &[&format!("{prefix}point_count")])?;
+        desc.points = c.array(self.points, "points", &[&format!("{prefix}point_count"), "3"])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.point_count = c.count(&format!("{prefix}point_count"), 0)?;
+        Ok(desc)
+    }
+}
+
 /// Options of picking: posed positions, if the surface is not at rest, and which triangles count.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PickOptions<'a> {
@@ -1389,6 +1431,31 @@ impl<'a> WeightsMirrorOptions<'a> {
     }
 }
 
+/// A cut as triangles that go and come. The first three arrays fit [`Patch`]. New vertices and triangles have the numbers
+/// after the last ones of your mesh. The arrays are yours: each is `None` or as large as its capacity.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cut {
+    /// `[removed_triangle_capacity]` triangles of your mesh, ascending
+    pub removed_triangles: Vec<u32>,
+    /// `[new_vertex_capacity x 3]` in the unit of your mesh
+    pub new_positions: Vec<f64>,
+    /// `[new_triangle_capacity x 3]` vertices of your mesh, the first of welded copies, and new ones
+    pub new_triangles: Vec<u32>,
+    /// `[new_vertex_capacity x 3]` vertices of your mesh; the new vertex lies between them. Mix their attributes, as skin
+    /// weights. [`raw::HF_NO_INDEX`] where a weight is 0
+    pub vertex_corners: Vec<u32>,
+    /// `[new_vertex_capacity x 3]` their weights, of sum 1. A single 1 copies a vertex
+    pub vertex_barycentrics: Vec<f64>,
+    /// `[new_triangle_capacity]` the removed triangle that each new one is a part of
+    pub source_triangles: Vec<u32>,
+    /// `[new_triangle_capacity x 3 x 3]` three weights for each corner of a new triangle, of the corners of its source:
+    /// for what corners have, as UVs at seams
+    pub corner_barycentrics: Vec<f64>,
+    /// `[rim_capacity x 2]` along the line: the vertex on its left and that on its right; one and the same where the line
+    /// ends inside the surface. At a border between its ends: those after it
+    pub rim_vertices: Vec<u32>,
+}
+
 /// Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 - parameter)
 /// a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each is `None` or as
 /// large as its capacity.
@@ -1909,6 +1976,71 @@ impl Surface {
         check(unsafe { raw::hf_surface_save(self.handle, field_kind, progress.map_or(std::ptr::null_mut(),
             |o| o.handle), block.len(), block.as_mut_ptr().cast(), &mut size) })?;
         Ok(block)
+    }
+
+    /// Turns a line on the surface into a cut through triangles. Give the arrays to `Surface::edit` as a patch, and
+    /// change your mesh in the same way. The surface itself does not change.
+    ///
+    /// A line from border to border, or a closed line around a part, parts it from the rest. A line that starts at the
+    /// border opens it. An end inside the surface stays closed. The line may pass vertices and run along edges. It is
+    /// straight where its triangles are unfolded, and bends at its points and at vertices only. The parts of a triangle
+    /// are a Delaunay triangulation of it. Points are whole multiples of 2^-29 of an edge. On a mesh whose triangles are
+    /// turned alike, left is left for a viewer who looks at the outside along the line. New vertices have the stiffness
+    /// 1.
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_EMPTY`],
+    /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`],
+    /// [`raw::HF_ERROR_UNSUPPORTED`].
+    pub fn trace_cut(&self, options: &CutOptions) -> Result<Cut> {
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        let desc = options.fill(&mut c, "")?;
+        let mut cut = raw::hf_cut { ..Default::default() };
+        c.learn("removed_triangle_capacity", Call::FIRST);
+        c.learn("new_vertex_capacity", Call::FIRST);
+        c.learn("new_triangle_capacity", Call::FIRST);
+        c.learn("rim_capacity", Call::FIRST);
+        let mut all_removed_triangles: Vec<u32> = Vec::new();
+        let mut all_new_positions: Vec<f64> = Vec::new();
+        let mut all_new_triangles: Vec<u32> = Vec::new();
+        let mut all_vertex_corners: Vec<u32> = Vec::new();
+        let mut all_vertex_barycentrics: Vec<f64> = Vec::new();
+        let mut all_source_triangles: Vec<u32> = Vec::new();
+        let mut all_corner_barycentrics: Vec<f64> = Vec::new();
+        let mut all_rim_vertices: Vec<u32> = Vec::new();
+        loop {
+            cut.removed_triangle_capacity = c.count("removed_triangle_capacity", 0)?;
+            cut.new_vertex_capacity = c.count("new_vertex_capacity", 0)?;
+            cut.new_triangle_capacity = c.count("new_triangle_capacity", 0)?;
+            cut.rim_capacity = c.count("rim_capacity", 0)?;
+            cut.removed_triangles = c.room(&mut all_removed_triangles, &["removed_triangle_capacity"]);
+            cut.new_positions = c.room(&mut all_new_positions, &["new_vertex_capacity", "3"]);
+            cut.new_triangles = c.room(&mut all_new_triangles, &["new_triangle_capacity", "3"]);
+            cut.vertex_corners = c.room(&mut all_vertex_corners, &["new_vertex_capacity", "3"]);
+            cut.vertex_barycentrics = c.room(&mut all_vertex_barycentrics, &["new_vertex_capacity", "3"]);
+            cut.source_triangles = c.room(&mut all_source_triangles, &["new_triangle_capacity"]);
+            cut.corner_barycentrics = c.room(&mut all_corner_barycentrics, &["new_triangle_capacity", "3", "3"]);
+            cut.rim_vertices = c.room(&mut all_rim_vertices, &["rim_capacity", "2"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_trace_cut(self.handle, &desc, &mut cut) };
+            if c.enough(code, &[("removed_triangle_capacity", cut.removed_triangle_count), ("new_vertex_capacity",
+                cut.new_vertex_count), ("new_triangle_capacity", cut.new_triangle_count), ("rim_capacity",
+                cut.rim_count)])? {
+                break;
+            }
+        }
+        all_removed_triangles.truncate(c.product(&["removed_triangle_capacity"]));
+        all_new_positions.truncate(c.product(&["new_vertex_capacity", "3"]));
+        all_new_triangles.truncate(c.product(&["new_triangle_capacity", "3"]));
+        all_vertex_corners.truncate(c.product(&["new_vertex_capacity", "3"]));
+        all_vertex_barycentrics.truncate(c.product(&["new_vertex_capacity", "3"]));
+        all_source_triangles.truncate(c.product(&["new_triangle_capacity"]));
+        all_corner_barycentrics.truncate(c.product(&["new_triangle_capacity", "3", "3"]));
+        all_rim_vertices.truncate(c.product(&["rim_capacity", "2"]));
+        Ok(Cut { removed_triangles: all_removed_triangles, new_positions: all_new_positions,
+            new_triangles: all_new_triangles, vertex_corners: all_vertex_corners,
+            vertex_barycentrics: all_vertex_barycentrics, source_triangles: all_source_triangles,
+            corner_barycentrics: all_corner_barycentrics, rim_vertices: all_rim_vertices })
     }
 
     /// Finds what a mouse click hits: the first triangle on a ray.

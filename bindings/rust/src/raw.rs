@@ -557,6 +557,45 @@ pub struct hf_place {
     pub barycentrics: [f64; 3],
 }
 
+/// Describes the line of a knife
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_cut_desc {
+    pub struct_size: u32,
+    pub point_count: u32,
+    pub vertices: *const u32,
+    pub places: *const hf_place,
+    pub points: *const f64,
+    pub snap_share: f64,
+    pub crossing_limit: u32,
+    pub reserved: u32,
+    pub progress: hf_progress,
+}
+
+/// A cut as triangles that go and come.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_cut {
+    pub struct_size: u32,
+    pub removed_triangle_capacity: u32,
+    pub new_vertex_capacity: u32,
+    pub new_triangle_capacity: u32,
+    pub rim_capacity: u32,
+    pub removed_triangle_count: u32,
+    pub new_vertex_count: u32,
+    pub new_triangle_count: u32,
+    pub rim_count: u32,
+    pub reserved: u32,
+    pub removed_triangles: *mut u32,
+    pub new_positions: *mut f64,
+    pub new_triangles: *mut u32,
+    pub vertex_corners: *mut u32,
+    pub vertex_barycentrics: *mut f64,
+    pub source_triangles: *mut u32,
+    pub corner_barycentrics: *mut f64,
+    pub rim_vertices: *mut u32,
+}
+
 /// Options of picking
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1633,17 +1672,17 @@ macro_rules! figures {
 sized! {
     hf_factor_desc hf_links_desc hf_faces_desc hf_surface_desc hf_graph_desc hf_surface_info hf_surface_report
         hf_mesh_statistics hf_links_info hf_gaps_info hf_patch_desc hf_surface_edit_desc hf_surface_statistics
-        hf_pick_desc hf_hit hf_solver_desc hf_solver_info hf_sites_desc hf_edit_desc hf_sites_info hf_solve_info
-        hf_preview_info hf_certificate hf_solver_statistics hf_isolines hf_critical_info hf_geodesics_desc hf_path
-        hf_extremities_desc hf_direction_desc hf_direction_statistics hf_pose_desc hf_pose_info hf_handles_desc
-        hf_handle_info hf_deform_info hf_deform_desc hf_pose_statistics hf_skin_info hf_blend_info hf_blend_rows
-        hf_blend_influences hf_handle_proposals_desc hf_quads_desc hf_quads_info hf_quads_mesh hf_streamlines
-        hf_region_desc hf_curve_desc hf_region_edit_desc hf_region_info hf_region_statistics hf_morph_desc
-        hf_detail_desc hf_retarget_desc hf_retarget_info hf_skin_desc hf_skeleton_desc hf_skeleton_info
-        hf_transfer_desc hf_pairs_desc hf_pair_info hf_transfer_info hf_transfer_statistics hf_transfer_dials
-        hf_transfer_frame hf_joints_desc hf_pins_desc hf_weights_out hf_weights_info hf_weights_statistics
-        hf_weights_transfer_desc hf_weights_transfer_info hf_weights_mirror_desc hf_weights_mirror_info
-        hf_weights_mirror_statistics
+        hf_cut_desc hf_cut hf_pick_desc hf_hit hf_solver_desc hf_solver_info hf_sites_desc hf_edit_desc
+        hf_sites_info hf_solve_info hf_preview_info hf_certificate hf_solver_statistics hf_isolines hf_critical_info
+        hf_geodesics_desc hf_path hf_extremities_desc hf_direction_desc hf_direction_statistics hf_pose_desc
+        hf_pose_info hf_handles_desc hf_handle_info hf_deform_info hf_deform_desc hf_pose_statistics hf_skin_info
+        hf_blend_info hf_blend_rows hf_blend_influences hf_handle_proposals_desc hf_quads_desc hf_quads_info
+        hf_quads_mesh hf_streamlines hf_region_desc hf_curve_desc hf_region_edit_desc hf_region_info
+        hf_region_statistics hf_morph_desc hf_detail_desc hf_retarget_desc hf_retarget_info hf_skin_desc
+        hf_skeleton_desc hf_skeleton_info hf_transfer_desc hf_pairs_desc hf_pair_info hf_transfer_info
+        hf_transfer_statistics hf_transfer_dials hf_transfer_frame hf_joints_desc hf_pins_desc hf_weights_out
+        hf_weights_info hf_weights_statistics hf_weights_transfer_desc hf_weights_transfer_info
+        hf_weights_mirror_desc hf_weights_mirror_info hf_weights_mirror_statistics
 }
 
 zeroed! {
@@ -1740,6 +1779,7 @@ extern "C" {
     pub fn hf_surface_get_stiffness(surface: hf_surface, capacity: u32, out_stiffness: *mut f64, out_count: *mut u32) -> i32;
     pub fn hf_surface_get_statistics(surface: hf_surface, out_statistics: *mut hf_surface_statistics) -> i32;
     pub fn hf_surface_save(surface: hf_surface, field_kind: i32, progress: hf_progress, capacity: usize, out_bytes: *mut c_void, out_size: *mut usize) -> i32;
+    pub fn hf_surface_trace_cut(surface: hf_surface, desc: *const hf_cut_desc, inout_cut: *mut hf_cut) -> i32;
     pub fn hf_surface_cast_ray(surface: hf_surface, origin: *const f64, direction: *const f64, desc: *const hf_pick_desc, out_hit: *mut hf_hit) -> i32;
     pub fn hf_surface_find_vertex(surface: hf_surface, point: *const f64, desc: *const hf_pick_desc, out_vertex: *mut u32, out_distance: *mut f64) -> i32;
     pub fn hf_create(surface: hf_surface, desc: *const hf_solver_desc, out_solver: *mut hf_solver) -> i32;

@@ -46,7 +46,7 @@ using Structs =
          hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_pose_statistics,
          hf_transfer_statistics, hf_morph_desc, hf_detail_desc, hf_quads_desc, hf_quads_info, hf_quads_mesh,
          hf_streamlines, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame,
-         hf_graph_desc, hf_links_desc, hf_surface_edit_desc, hf_patch_desc, hf_gaps_info, hf_joints_desc, hf_pins_desc, hf_weights_out,
+         hf_graph_desc, hf_links_desc, hf_surface_edit_desc, hf_patch_desc, hf_cut_desc, hf_cut, hf_gaps_info, hf_joints_desc, hf_pins_desc, hf_weights_out,
          hf_weights_info, hf_weights_statistics, hf_weights_mirror_statistics, hf_weights_transfer_desc,
          hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_path, hf_transfer_dials,
          hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_retarget_desc, hf_retarget_info>;

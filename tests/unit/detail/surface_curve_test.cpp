@@ -11,8 +11,13 @@ using namespace hf_test;
 
 using Points = std::vector<CurvePoint>;
 
+SurfaceCurve curve_of(const Core& core, const Points& points) {
+  const Geometry& shape = core.geometry->unlinked();
+  return surface_curve(shape.mesh, shape.topology(), points, {}, *core.memory);
+}
+
 Numbers side_of(const Core& core, const Points& points, CurveSide side = CurveSide::smaller, std::int32_t seed = -1) {
-  const SurfaceCurve curve = surface_curve(core, points, *core.memory);
+  const SurfaceCurve curve = curve_of(core, points);
   return numbers(surface_curve_side(core, points, curve, side, seed, *core.memory));
 }
 
@@ -66,7 +71,7 @@ TEST(SurfaceCurve, PathsAreShortestAndRunThroughTheirTriangles) {
     for (int round = 0; round < 60; ++round) {
       Points points;
       for (int i = 0; i < 4; ++i) points.push_back(draw(*core, random));
-      const SurfaceCurve curve = surface_curve(*core, points, *core->memory);
+      const SurfaceCurve curve = curve_of(*core, points);
       std::vector<double> length(points.size());
       for (std::size_t i = 0; i < curve.place.size(); ++i) {
         const std::size_t next = (i + 1) % curve.place.size();

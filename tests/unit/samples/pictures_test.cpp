@@ -9,10 +9,10 @@
 
 #include "common/picture_text.h"
 #include "gltf/file_bytes.h"
-#include "unit/gltf/gltf_support.h"
 #include "pictures/animation_file.h"
 #include "pictures/palette.h"
 #include "support/program_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 
@@ -162,9 +162,11 @@ TEST(PicturesProgram, WritesWholeFilesOfTheRightFrames) {
   EXPECT_EQ(moving.announced, 6u);
   ASSERT_EQ(moving.frames.size(), 6u);
   for (size_t i = 1; i < moving.frames.size(); ++i) EXPECT_NE(moving.frames[i], moving.frames[i - 1]) << i;
-  for (const char* name : {"field", "pose", "transfer", "surface", "geodesics", "quads", "detail", "direction"}) {
+  for (const char* name :
+       {"field", "pose", "transfer", "surface", "geodesics", "cut", "quads", "detail", "direction"}) {
     const Decoded still = decode(read_bytes(out / ("ability_" + std::string(name) + ".png"), 1 << 24));
-    const uint32_t times = name == std::string("surface") || name == std::string("geodesics") ? 2 : 1;
+    const uint32_t times =
+        name == std::string("surface") || name == std::string("geodesics") || name == std::string("cut") ? 2 : 1;
     EXPECT_EQ(still.width, times * (320u * 12 / 100)) << name;
     EXPECT_EQ(still.height, times * (240u * 12 / 100)) << name;
     ASSERT_EQ(still.frames.size(), 1u) << name;
@@ -213,7 +215,8 @@ TEST(PicturesProgram, MakesThePicturesOfTheDocumentationAgain) {
   ASSERT_EQ(made.frames.size(), 48 / every);
   for (size_t i = 0; i < made.frames.size(); ++i)
     EXPECT_LE(differing(made.frames[i], moving.frames[i * every]), most) << "frame " << i * every;
-  for (const char* name : {"field", "pose", "transfer", "surface", "geodesics", "quads", "detail", "direction"}) {
+  for (const char* name :
+       {"field", "pose", "transfer", "surface", "geodesics", "cut", "quads", "detail", "direction"}) {
     const std::string file = "ability_" + std::string(name) + ".png";
     const auto still = [&](const fs::path& in) { return decode(read_bytes(in / file, 1 << 24)).frames.at(0); };
     EXPECT_LE(differing(still(folder.path), still(kept)), most) << file << ": samples/pictures/make writes it anew";

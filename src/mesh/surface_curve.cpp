@@ -1,4 +1,4 @@
-#include "detail/surface_curve.h"
+#include "mesh/surface_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,27 +43,32 @@ PathPoint place_of(const CurvePoint& point) noexcept {
 // Builds a curve place by place, and finds the exact path between two points in the ellipsoid that holds it.
 class CurveTracer {
  public:
-  CurveTracer(const Core& core, Span<const CurvePoint> points, SurfaceCurve& curve, Memory& memory)
-      : mesh_(core.geometry->unlinked().mesh),
-        topology_(core.geometry->unlinked().topology()),
+  CurveTracer(const Mesh& mesh, const Topology& topology, Span<const CurvePoint> points, const CurveOptions& options,
+              SurfaceCurve& curve, Memory& memory)
+      : mesh_(mesh),
+        topology_(topology),
         points_(points),
+        options_(options),
         curve_(curve),
         memory_(memory),
         edges_(mesh_, topology_, memory),
         way_(&memory),
-        local_(at(core.size()), Mesh::none, &memory),
+        local_(mesh.positions.size(), Mesh::none, &memory),
         taken_(at(mesh_.triangle_count()), 0, &memory),
         vertices_(&memory),
         triangles_(&memory) {}
 
   void trace() {
-    for (std::size_t i = 0; i < points_.size(); ++i) {
+    const std::size_t count = points_.size();
+    for (std::size_t i = 0; i < count; ++i) {
       point_ = static_cast<Index>(i);
-      const CurvePoint from = snapped(points_[i]), to = snapped(points_[(i + 1) % points_.size()]);
+      const CurvePoint from = snapped(points_[i]), to = snapped(points_[(i + 1) % count]);
       put(place_of(from));
+      poll();
+      if (!options_.closed && i + 1 == count) break;
       if (in_one_triangle(from, to)) continue;
-      const float count = static_cast<float>(points_.size());
-      const ProgressRange range(static_cast<float>(i) / count, static_cast<float>(i + 1) / count);
+      const ProgressRange range(static_cast<float>(i) / static_cast<float>(count),
+                                static_cast<float>(i + 1) / static_cast<float>(count));
       const std::size_t before = curve_.place.size();
       if (exact(from, to) && holds_together(before - 1, to)) continue;
       // A path that rounding loses is replaced by the one along edges.
@@ -71,12 +76,13 @@ class CurveTracer {
       curve_.point_of.resize(before);
       for (const Index v : way_) put({v, v, 0});
     }
-    while (curve_.place.size() > 1 && equal(curve_.place.front(), curve_.place.back())) {
+    while (options_.closed && curve_.place.size() > 1 && equal(curve_.place.front(), curve_.place.back())) {
       curve_.place.pop_back();
       curve_.point_of.pop_back();
     }
     const std::size_t size = curve_.place.size();
-    for (std::size_t i = 0; size > 1 && i < size; ++i) curve_.triangle.push_back(triangle_between(i, (i + 1) % size));
+    for (std::size_t i = 0; size > 1 && i + !options_.closed < size; ++i)
+      curve_.triangle.push_back(triangle_between(i, (i + 1) % size));
   }
 
  private:
@@ -90,6 +96,10 @@ class CurveTracer {
     if (!curve_.place.empty() && equal(curve_.place.back(), place)) {
       curve_.point_of.back() = point_;
     } else {
+      if (curve_.place.size() == options_.most_places)
+        fail(HF_ERROR_TOO_LARGE, static_cast<std::uint32_t>(point_),
+             "the line has more than %zu points and crossings of edges after point %d; raise the limit, or cut less",
+             options_.most_places, point_);
       curve_.place.push_back(place);
       curve_.point_of.push_back(point_);
     }
@@ -228,6 +238,7 @@ class CurveTracer {
   const Mesh& mesh_;
   const Topology& topology_;
   Span<const CurvePoint> points_;
+  const CurveOptions options_;
   SurfaceCurve& curve_;
   Memory& memory_;
   EdgePaths edges_;
@@ -271,9 +282,10 @@ void require_one_component(const Mesh& mesh, Span<const CurvePoint> points) {
   }
 }
 
-SurfaceCurve surface_curve(const Core& core, Span<const CurvePoint> points, Memory& memory) {
+SurfaceCurve surface_curve(const Mesh& mesh, const Topology& topology, Span<const CurvePoint> points,
+                           const CurveOptions& options, Memory& memory) {
   SurfaceCurve curve(memory);
-  CurveTracer(core, points, curve, memory).trace();
+  CurveTracer(mesh, topology, points, options, curve, memory).trace();
   return curve;
 }
 
