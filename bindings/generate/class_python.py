@@ -16,8 +16,8 @@ NUMPY = {"float": "float32", "double": "float64", "uint32_t": "uint32", "int32_t
 RESERVED = {"from", "in", "is", "not", "and", "or", "with", "as", "def", "class", "return", "pass", "lambda", "None", "True", "False",
             "global", "import", "raise", "try", "while", "for", "if", "else", "del", "self", "c", "run", "call"}
 HINTS = {"array": "Optional[ArrayLike]", "lists": "Optional[Sequence[ArrayLike]]", "fixed": "Optional[ArrayLike]", "desc": "Any",
-         "text": "Union[None, str, Sequence[str]]", "blob": "Optional[bytes]", "out": "Optional[np.ndarray]", "type": "Any",
-         "fill": "Optional[np.ndarray]", "place": "PlaceLike", "request": "bool"}
+         "text": "Union[None, str, Sequence[str]]", "blob": "Optional[bytes]", "out": "Optional[np.ndarray[Any, Any]]", "type": "Any",
+         "fill": "Optional[np.ndarray[Any, Any]]", "place": "PlaceLike", "request": "bool"}
 
 
 def safe(name):
@@ -258,9 +258,9 @@ class Writer:
         found = []
         for kind, name, item in plan.results:
             if kind == "array":
-                found.append((f"{safe(name)} != 0" if item.get("flag") else safe(name), "np.ndarray"))
+                found.append((f"{safe(name)} != 0" if item.get("flag") else safe(name), "np.ndarray[Any, Any]"))
             elif kind == "grown":
-                found.append((f"found['{name}']", "np.ndarray"))
+                found.append((f"found['{name}']", "np.ndarray[Any, Any]"))
             elif kind == "bytes":
                 found.append(("block.tobytes()", "bytes"))
             elif kind == "string":
@@ -337,13 +337,13 @@ class Writer:
             self.names.append(camel(name))
             out += ["", "", f"class {camel(name)}(NamedTuple):", *block(self.words.say(struct.struct["doc"] or "Results."), 4), ""]
             for f in sorted(arrays + figures, key=lambda f: f in struct.on_request):
-                hint = "np.ndarray" if f in arrays else self.hint(f)
+                hint = "np.ndarray[Any, Any]" if f in arrays else self.hint(f)
                 out.append(f"    {f['name']}: Optional[{hint}] = None" if f in struct.on_request else f"    {f['name']}: {hint}")
                 out += block(self.words.say(re.sub(r"^out[:;]?\s*", "", f["doc"])), 4) if f["doc"] else []
             for f in arrays:
                 starts, rows = re.match(r"(\w+)_starts$", f["name"]), next((g for g in arrays if g["dims"][1:] == ["3"]), None)
                 if starts and rows:
-                    out += ["", f"    def {starts.group(1)}s(self) -> List[np.ndarray]:", f'        """The {rows["name"]} of each {starts.group(1)}."""',
+                    out += ["", f"    def {starts.group(1)}s(self) -> List[np.ndarray[Any, Any]]:", f'        """The {rows["name"]} of each {starts.group(1)}."""',
                             f"        return [self.{rows['name']}[a:b] for a, b in zip(self.{f['name']}[:-1], self.{f['name']}[1:])]"]
         return out
 
@@ -381,15 +381,15 @@ class Writer:
         head = ['"""Generated from include/hf/*.h by bindings/generate; do not edit. Classes, enums and results of the package."""',
                 "# fmt: off", "", "from __future__ import annotations", "", "import ctypes", "from enum import IntEnum, IntFlag",
                 "from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union", "", "import numpy as np", "",
-                "from . import _raw", "from ._library import ArrayLike, Call, Object, Recorded, address, call, handle_of, library, number, place, ref",
+                "from . import _errors, _raw", "from ._errors import *  # noqa: F401,F403", "from ._library import ArrayLike, Call, Object, Recorded, address, call, handle_of, library, number, place, ref",
                 "from ._library import PlaceLike"]
-        head += ["", "", *TOLD]
+        head += ["", "NO_INDEX = _raw.HF_NO_INDEX", "", "", *TOLD]
         text = head + self.aliases() + self.enums() + self.result_classes() + fillers + bodies
         repeated = sorted({n for n in self.names if self.names.count(n) > 1})
         if repeated:
             raise ValueError(f"two things are called {', '.join(repeated)} in Python")
-        listed = textwrap.wrap(", ".join(repr(n) for n in sorted(self.names)), 110)
-        return "\n".join(text + ["", "", "__all__ = [", *["    " + line for line in listed], "]"]) + "\n"
+        listed = textwrap.wrap(", ".join(repr(n) for n in sorted(["NO_INDEX", *self.names])), 110)
+        return "\n".join(text + ["", "", "__all__ = [", *["    " + line for line in listed], "]", "__all__ += _errors.__all__"]) + "\n"
 
 
 def write(api):

@@ -14,13 +14,15 @@ BASE = '''
 class Struct(Structure):
     """A struct of zeros with its size set, shown with its fields."""
 
-    def __init__(self, *values, **fields) -> None:
+    struct_size: int
+
+    def __init__(self, *values: Any, **fields: Any) -> None:
         super().__init__(*values, **fields)
         if self._fields_[0][0] == "struct_size":
             self.struct_size = sizeof(self)
 
     def __repr__(self) -> str:
-        shown = []
+        shown: List[str] = []
         for name, *_ in self._fields_:
             value = getattr(self, name)
             if name not in ("struct_size", "reserved"):
@@ -40,15 +42,18 @@ def ctype(api, item):
 def hint(api, field):
     if is_pointer(api, field):
         return "int"
-    if field["type"] not in TYPES or (field["count"] and field["type"] != "char"):
-        return "object"
-    return HINTS.get(field["type"], "int")
+    kind = TYPES.get(field["type"], field["type"])
+    if field["count"] and field["type"] != "char":
+        return f"Array[{kind}]"
+    return HINTS.get(field["type"], "int" if field["type"] in TYPES else kind)
 
 
 def write(api):
     out = ['"""Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI as ctypes sees it."""',
            "# fmt: off",
-           "from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p, sizeof)", "",
+           "from __future__ import annotations", "",
+           "from ctypes import (Array, CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p, sizeof)",
+           "from typing import Any, List", "",
            f'HEADER_VERSION = "{api["version"]}"', "", *BASE]
     out += [f"{c['name']} = {c['value']}" for c in api["constants"]]
     out += ["", "RESULT_NAMES = {",

@@ -21,7 +21,7 @@ import blender_window  # noqa: E402
 from blender_bodies import active  # noqa: E402
 from blender_window import click, inside, only_view, open_tab, run, sidebar, undo, view  # noqa: E402
 
-quads, = blender_addon.modules("quads")
+panels, quads = blender_addon.modules("panels", "quads")
 
 
 def done(made, state, *rest, shown=quads.done):
@@ -31,6 +31,14 @@ def done(made, state, *rest, shown=quads.done):
 
 
 quads.done = done
+
+
+def say(layout, context, sentence, *rest, shown=panels.say):
+    """A sentence of the tab without the times of this machine."""
+    shown(layout, context, sentence.split(", factor")[0], *rest)
+
+
+panels.say = say
 
 
 def screen():
@@ -100,7 +108,7 @@ def pull():
     size = max(mesh().dimensions)
     head = max((o for o in bpy.data.objects if o.type == "EMPTY" and o.empty_display_type == "SPHERE"),
         key=lambda o: o.location.z)
-    head.location += Vector((0.02, 0.0, 0.16)) * size
+    head.location += Vector((0.02, 0.0, 0.09)) * size  # the ears stay in the picture
     head.rotation_mode = "QUATERNION"
     active(head)
     bpy.context.view_layer.update()

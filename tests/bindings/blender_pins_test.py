@@ -247,5 +247,36 @@ assert bpy.ops.hf.field(high="cap", low="floor") == {"FINISHED"}
 body.shape_key_clear()
 assert bpy.ops.hf.add_handle(group="cap") == {"FINISHED"} and step().startswith("Add a second handle")
 
+# ---- keys that are added to a posed mesh: no pose is shown, the tab says so; without the keys the handles go on
+straight = mesh_data.edited_rest(body.data)
+far = lambda places, shape: float(np.abs(places - shape).max())
+places_of_key = lambda key: np.array([point.co for point in key.data])
+assert bpy.ops.hf.add_handle(group="floor") == {"FINISHED"}
+top = next(o for o in bpy.data.objects if o.get("hf_vertices") and "cap" in o.name)
+top.location.x += 0.5
+settle()
+posed = now()
+assert far(posed, straight) > 0.4
+body.shape_key_add(name="Basis")
+body.shape_key_add(name="smile").data[0].co.y += 0.25
+top.location.x += 0.5
+bpy.context.view_layer.update()
+assert far(now(), posed) == 0 and step().startswith("tube has shape keys")
+body.shape_key_clear()
+settle()
+assert far(now(), straight) > 0.8
+
+# ---- such keys hold the pose: Unbind takes it out of them, and what a key changes stays
+body.shape_key_add(name="Basis")
+smile = body.shape_key_add(name="smile")
+smile.data[0].co.y += 0.25
+smile.value = 0  # Blender 5 gives it 1
+assert bpy.ops.hf.unbind() == {"FINISHED"}
+basis, smile = body.data.shape_keys.key_blocks
+change = places_of_key(smile) - places_of_key(basis)
+assert far(places_of_key(basis), straight) < 1e-6 and abs(change[0, 1] - 0.25) < 1e-6 and far(change[1:], 0) < 1e-6
+shown = body.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+assert far(mesh_data.positions_of(shown), straight) < 1e-6
+
 blender_addon.disable()
 print("blender pins: all right")

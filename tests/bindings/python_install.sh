@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # python_install.sh LIBRARY SCRATCH: the Python package built and installed by pip (nothing is downloaded), with the
-# library inside, then imported without any help. 77 (skipped) where pip, setuptools or numpy are missing.
+# library inside, then imported without any help. Without a library the install fails with a sentence. 77 (skipped) where pip, setuptools or numpy are missing.
 set -u
 root=$(cd "$(dirname "$0")/../.." && pwd)
 library=$(readlink -f "$1") scratch=$2
@@ -18,10 +18,22 @@ done
 rm -rf "$scratch"
 mkdir -p "$scratch"
 cp -r "$root/bindings/python" "$scratch/source"
-cp "$library" "$scratch/source/hf/libhf.so"
 unset PYTHONPATH HF_LIBRARY
-"$builder" -m pip install --quiet --no-deps --no-build-isolation --no-index --disable-pip-version-check \
-  --target "$scratch/site" "$scratch/source" || exit 1
+install() { # install SITE
+  rm -rf "$scratch/source/build"
+  "$builder" -m pip install --quiet --no-deps --no-build-isolation --no-index --disable-pip-version-check --target "$scratch/$1" "$scratch/source"
+}
+refused() { # refused SENTENCE: the install fails, says it, and leaves nothing
+  install none >"$scratch/log" 2>&1 && { echo "error: installed without a library"; exit 1; }
+  grep -qF "$1" "$scratch/log" || { cat "$scratch/log"; echo "error: it does not say: $1"; exit 1; }
+  [ ! -e "$scratch/none/hf" ] || { echo "error: a failed install left files"; exit 1; }
+}
+refused "error: this package would have no hf library. Build it"
+HF_LIBRARY="$scratch/libhf.so" refused "error: HF_LIBRARY names $scratch/libhf.so, which is not there"
+HF_LIBRARY=$library install given || exit 1
+cmp "$library" "$scratch/given/hf/libhf.so" || exit 1
+cp "$library" "$scratch/source/hf/libhf.so"
+install site || exit 1
 cd "$scratch"
 PYTHONPATH="$scratch/site" exec "$user" -c '
 import hf, sys

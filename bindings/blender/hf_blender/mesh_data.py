@@ -80,6 +80,20 @@ def keep_pose(mesh, rest, posed):
     mesh.update()
 
 
+def restore_rest(mesh):
+    """The rest shape back into a mesh, and what the add-on kept away. Shape keys hold places of their own: those that were added
+    to a posed mesh hold the pose too."""
+    rest = edited_rest(mesh)
+    offset = positions_of(mesh) - rest
+    for key in mesh.shape_keys.key_blocks if mesh.shape_keys and offset.any() else ():
+        places = np.empty(3 * len(key.data), np.float32)
+        key.data.foreach_get("co", places)
+        key.data.foreach_set("co", places - offset.ravel())
+    mesh.vertices.foreach_set("co", rest.ravel())
+    forget_pose(mesh)
+    mesh.update()
+
+
 def forget_pose(mesh):
     for name in (REST, POSED, NUMBER, NUMBER + SCRAMBLED, HELD, HELD + SCRAMBLED):
         if name in mesh.attributes:

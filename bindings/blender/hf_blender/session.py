@@ -337,14 +337,11 @@ def forget(obj):
     key = obj.get("hf_key")
     session = sessions.pop(key, None)
     unbound.pop(key, None)
-    rest = mesh_data.edited_rest(obj.data)
     for carrier in handles_of(obj):
         carriers.unmark(carrier)
     for name in (paint.STIFF, paint.STIFF_GROUP, paint.PINS):
         obj.pop(name, None)
-    mesh_data.forget_pose(obj.data)
-    obj.data.vertices.foreach_set("co", rest.ravel())
-    obj.data.update()
+    mesh_data.restore_rest(obj.data)
     carriers.strip(obj)
     if session:
         session.close()

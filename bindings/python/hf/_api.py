@@ -9,9 +9,12 @@ from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from . import _raw
+from . import _errors, _raw
+from ._errors import *  # noqa: F401,F403
 from ._library import ArrayLike, Call, Object, Recorded, address, call, handle_of, library, number, place, ref
 from ._library import PlaceLike
+
+NO_INDEX = _raw.HF_NO_INDEX
 
 
 def told(of: Any, counts: Sequence[str], report: str = "") -> str:
@@ -490,25 +493,25 @@ class Cut(NamedTuple):
     numbers after the last ones of your mesh. The arrays are yours: each is None or as large as its capacity.
     """
 
-    removed_triangles: np.ndarray
+    removed_triangles: np.ndarray[Any, Any]
     """(removed_triangle_capacity,) triangles of your mesh, ascending"""
-    new_positions: np.ndarray
+    new_positions: np.ndarray[Any, Any]
     """(new_vertex_capacity, 3) in the unit of your mesh"""
-    new_triangles: np.ndarray
+    new_triangles: np.ndarray[Any, Any]
     """(new_triangle_capacity, 3) vertices of your mesh, the first of welded copies, and new ones"""
-    vertex_corners: np.ndarray
+    vertex_corners: np.ndarray[Any, Any]
     """(new_vertex_capacity, 3) vertices of your mesh; the new vertex lies between them. Mix their attributes, as skin
     weights. NO_INDEX where a weight is 0
     """
-    vertex_barycentrics: np.ndarray
+    vertex_barycentrics: np.ndarray[Any, Any]
     """(new_vertex_capacity, 3) their weights, of sum 1. A single 1 copies a vertex"""
-    source_triangles: np.ndarray
+    source_triangles: np.ndarray[Any, Any]
     """(new_triangle_capacity,) the removed triangle that each new one is a part of"""
-    corner_barycentrics: np.ndarray
+    corner_barycentrics: np.ndarray[Any, Any]
     """(new_triangle_capacity, 3, 3) three weights for each corner of a new triangle, of the corners of its source: for
     what corners have, as UVs at seams
     """
-    rim_vertices: np.ndarray
+    rim_vertices: np.ndarray[Any, Any]
     """(rim_capacity, 2) along the line: the vertex on its left and that on its right; one and the same where the line
     ends inside the surface. At a border between its ends: those after it
     """
@@ -520,20 +523,20 @@ class Isolines(NamedTuple):
     is None or as large as its capacity.
     """
 
-    point_edges: np.ndarray
+    point_edges: np.ndarray[Any, Any]
     """(point_capacity, 2) vertices a and b of your mesh, the first of welded copies"""
-    parameters: np.ndarray
+    parameters: np.ndarray[Any, Any]
     """(point_capacity,) 0 to 1"""
-    positions: np.ndarray
+    positions: np.ndarray[Any, Any]
     """(point_capacity, 3) in the unit and frame of your mesh"""
-    line_starts: np.ndarray
+    line_starts: np.ndarray[Any, Any]
     """(line_capacity + 1,) line i holds the points line_starts(i,) to line_starts(i + 1,) - 1"""
-    line_levels: np.ndarray
+    line_levels: np.ndarray[Any, Any]
     """(line_capacity,) position of its level in the list"""
-    line_closed: np.ndarray
+    line_closed: np.ndarray[Any, Any]
     """(line_capacity,) 1: closed, the first point is not repeated; 0: ends at borders"""
 
-    def lines(self) -> List[np.ndarray]:
+    def lines(self) -> List[np.ndarray[Any, Any]]:
         """The positions of each line."""
         return [self.positions[a:b] for a, b in zip(self.line_starts[:-1], self.line_starts[1:])]
 
@@ -543,20 +546,20 @@ class SitesInfo(NamedTuple):
     are ordered by site number.
     """
 
-    sites: np.ndarray
+    sites: np.ndarray[Any, Any]
     """(capacity,) numbers"""
-    vertices: np.ndarray
+    vertices: np.ndarray[Any, Any]
     """(capacity,) the vertex of the place, NO_INDEX for a point in a triangle"""
-    components: np.ndarray
+    components: np.ndarray[Any, Any]
     """(capacity,)"""
-    values: np.ndarray
+    values: np.ndarray[Any, Any]
     """(capacity, channel_count)"""
-    stiffness: np.ndarray
+    stiffness: np.ndarray[Any, Any]
     """(capacity,) 0 = hard"""
-    flux: np.ndarray
+    flux: np.ndarray[Any, Any]
     """(capacity, channel_count) lambda: what flows into the surface at the site, in value x weight; the sum over a disc
     """
-    radii: np.ndarray
+    radii: np.ndarray[Any, Any]
     """(capacity,) 0 = a point"""
 
 
@@ -566,11 +569,11 @@ class Path(NamedTuple):
     for both. The arrays are yours: each is None or as large as the capacity.
     """
 
-    point_edges: np.ndarray
+    point_edges: np.ndarray[Any, Any]
     """(point_capacity, 2) vertices a and b of your mesh, the first of welded copies"""
-    parameters: np.ndarray
+    parameters: np.ndarray[Any, Any]
     """(point_capacity,) 0 to 1"""
-    positions: np.ndarray
+    positions: np.ndarray[Any, Any]
     """(point_capacity, 3) in the unit and frame of your mesh"""
     length: float
     """in the unit of the mesh; -1: no path"""
@@ -586,19 +589,19 @@ class SkinInfo(NamedTuple):
     scale, and the inverse bind matrix takes p to B^-1 (p - pivot). The arrays are yours; each may be None.
     """
 
-    pivots: np.ndarray
+    pivots: np.ndarray[Any, Any]
     """(joint_capacity, 3) rest centroid of what each joint moves"""
-    rotations: np.ndarray
+    rotations: np.ndarray[Any, Any]
     """(joint_capacity, 4) quaternion x, y, z, w of the last frame"""
-    translations: np.ndarray
+    translations: np.ndarray[Any, Any]
     """(joint_capacity, 3) posed place of the pivot"""
-    axes: np.ndarray
+    axes: np.ndarray[Any, Any]
     """(joint_capacity, 4) quaternion of B, fixed while handles stay"""
-    vertex_joints: np.ndarray
+    vertex_joints: np.ndarray[Any, Any]
     """(vertex_capacity, influence_count)"""
-    vertex_weights: np.ndarray
+    vertex_weights: np.ndarray[Any, Any]
     """(vertex_capacity, influence_count) of sum 1, descending"""
-    scales: Optional[np.ndarray] = None
+    scales: Optional[np.ndarray[Any, Any]] = None
     """(joint_capacity, 3) along the axes in the last frame; None = joints are rigid"""
 
 
@@ -607,19 +610,19 @@ class BlendRows(NamedTuple):
     mesh, gradients per unit of the mesh.
     """
 
-    rows: np.ndarray
+    rows: np.ndarray[Any, Any]
     """(vertex_capacity, 2) number of the first entry of the vertex, and count of its entries"""
-    clusters: np.ndarray
+    clusters: np.ndarray[Any, Any]
     """(entry_capacity,) each below the count of clusters"""
-    weights: np.ndarray
+    weights: np.ndarray[Any, Any]
     """(entry_capacity,) multiples of 2^-24; the weights of a vertex sum to 1"""
-    gradients: np.ndarray
+    gradients: np.ndarray[Any, Any]
     """(entry_capacity, 3) of the weights along the rest surface, for normals"""
-    positions: np.ndarray
+    positions: np.ndarray[Any, Any]
     """(vertex_capacity, 3) at rest, relative to centre"""
-    normals: np.ndarray
+    normals: np.ndarray[Any, Any]
     """(vertex_capacity, 3) unit, at rest"""
-    offsets: np.ndarray
+    offsets: np.ndarray[Any, Any]
     """(vertex_capacity, 3) 0 unless handles were added in place or rotations freed"""
     longest_row: int
     """entries of the vertex that has the most"""
@@ -634,9 +637,9 @@ class BlendInfluences(NamedTuple):
     times the largest distance between the places to which its clusters move it.
     """
 
-    clusters: np.ndarray
+    clusters: np.ndarray[Any, Any]
     """(vertex_capacity, influence_count) each below the count of clusters"""
-    weights: np.ndarray
+    weights: np.ndarray[Any, Any]
     """(vertex_capacity, influence_count) 65535ths; the weights of a vertex sum to 65535"""
     change: float
     """the largest change of a vertex's weights, 0 to 1: half the sum of the differences"""
@@ -646,9 +649,9 @@ class BlendInfluences(NamedTuple):
     """the largest distance of a vertex from its place in the last frame, in box diagonals"""
     byte_error: float
     """the same for byte_weights"""
-    byte_clusters: Optional[np.ndarray] = None
+    byte_clusters: Optional[np.ndarray[Any, Any]] = None
     """(vertex_capacity, influence_count) None = not wanted. Refused for more than 256 clusters"""
-    byte_weights: Optional[np.ndarray] = None
+    byte_weights: Optional[np.ndarray[Any, Any]] = None
     """(vertex_capacity, influence_count) None = not wanted. 255ths, of sum 255; weights that round to 0 are left out
     """
 
@@ -656,33 +659,33 @@ class BlendInfluences(NamedTuple):
 class QuadsMesh(NamedTuple):
     """Quads.mesh writes the quad mesh to these arrays. They are yours: each is None or as large as its capacity."""
 
-    positions: np.ndarray
+    positions: np.ndarray[Any, Any]
     """(vertex_capacity, 3) in the unit and frame of your mesh"""
-    faces: np.ndarray
+    faces: np.ndarray[Any, Any]
     """(face_capacity, 4) vertices of each quad, counter-clockwise"""
-    triangles: np.ndarray
+    triangles: np.ndarray[Any, Any]
     """(vertex_capacity,) triangle or face of your mesh that contains the vertex"""
-    barycentrics: np.ndarray
+    barycentrics: np.ndarray[Any, Any]
     """(vertex_capacity, 3) weights of that triangle's corners, in its own order, of sum 1; in a face of more corners the
     weights of `corners`
     """
-    corners: np.ndarray
+    corners: np.ndarray[Any, Any]
     """(vertex_capacity, 3) vertices of your mesh that barycentrics belong to, the first of welded copies"""
 
 
 class Streamlines(NamedTuple):
     """Results."""
 
-    positions: np.ndarray
+    positions: np.ndarray[Any, Any]
     """(point_capacity, 3) in the unit and frame of your mesh"""
-    values: np.ndarray
+    values: np.ndarray[Any, Any]
     """(point_capacity,) of the field, rising along every line"""
-    line_starts: np.ndarray
+    line_starts: np.ndarray[Any, Any]
     """(line_capacity + 1,) line i holds the points line_starts(i,) to line_starts(i + 1,) - 1"""
-    line_ends: np.ndarray
+    line_ends: np.ndarray[Any, Any]
     """(line_capacity, 2) vertices where it starts and ends, of welded copies the first"""
 
-    def lines(self) -> List[np.ndarray]:
+    def lines(self) -> List[np.ndarray[Any, Any]]:
         """The positions of each line."""
         return [self.positions[a:b] for a, b in zip(self.line_starts[:-1], self.line_starts[1:])]
 
@@ -690,11 +693,11 @@ class Streamlines(NamedTuple):
 class WeightsOut(NamedTuple):
     """Receives the weights. The arrays are yours; each may be None."""
 
-    joints: np.ndarray
+    joints: np.ndarray[Any, Any]
     """(vertex_capacity, influence_count)"""
-    weights: np.ndarray
+    weights: np.ndarray[Any, Any]
     """(vertex_capacity, influence_count) descending, of sum exactly 1"""
-    origins: np.ndarray
+    origins: np.ndarray[Any, Any]
     """(vertex_capacity,) WeightsOrigin"""
 
 
@@ -1317,7 +1320,7 @@ class Surface(Object):
         call('hf_surface_get_mesh_statistics', self._handle, ref(statistics))
         return statistics
 
-    def components(self) -> np.ndarray:
+    def components(self) -> np.ndarray[Any, Any]:
         """Writes the component of every vertex of your mesh, and NO_INDEX for isolated vertices. Components are numbered
         in the order of their lowest vertex numbers.
         """
@@ -1339,7 +1342,7 @@ class Surface(Object):
         call('hf_surface_get_links_info', self._handle, ref(info))
         return info
 
-    def links(self) -> np.ndarray:
+    def links(self) -> np.ndarray[Any, Any]:
         """Writes the links of a surface. You can edit them and give them back with LinkMode.LIST. A list does not say
         which pieces are light: name them in light_vertices, as Surface.pieces marks them. Then the list alone gives
         the same surface, bit for bit, without a search.
@@ -1354,7 +1357,7 @@ class Surface(Object):
                 {'links': (np.dtype(_raw.hf_link), ('capacity',))})
         return found['links']
 
-    def pieces(self) -> Tuple[np.ndarray, np.ndarray]:
+    def pieces(self) -> Tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
         """Writes the piece of every vertex of your mesh, and NO_INDEX for isolated vertices. Pieces are numbered in the
         order of their lowest vertices.
         """
@@ -1370,7 +1373,7 @@ class Surface(Object):
         found['light'] = found['light'] != 0
         return found['pieces'], found['light']
 
-    def measure_gaps(self, positions: ArrayLike, *, info: Optional[GapsInfo] = None) -> np.ndarray:
+    def measure_gaps(self, positions: ArrayLike, *, info: Optional[GapsInfo] = None) -> np.ndarray[Any, Any]:
         """Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
         ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured in the
         same way.
@@ -1476,7 +1479,7 @@ class Surface(Object):
         made._n['vertex_count'] = made.info.vertex_count
         return made
 
-    def cuts(self) -> np.ndarray:
+    def cuts(self) -> np.ndarray[Any, Any]:
         """Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts."""
         c = Call(self)
         count = ctypes.c_uint32()
@@ -1488,7 +1491,7 @@ class Surface(Object):
                 {'cuts': (np.dtype(_raw.hf_cut_corner), ('capacity',))})
         return found['cuts']
 
-    def stiffness(self) -> np.ndarray:
+    def stiffness(self) -> np.ndarray[Any, Any]:
         """Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices."""
         c = Call(self)
         count = ctypes.c_uint32()
@@ -1613,7 +1616,7 @@ class Surface(Object):
         call('hf_surface_find_vertex', self._handle, point_, ref(desc), ref(vertex), ref(distance))
         return vertex.value, distance.value
 
-    def space_levels(self, field: ArrayLike, level_count: int, spacing: int = Levels.VALUE) -> np.ndarray:
+    def space_levels(self, field: ArrayLike, level_count: int, spacing: int = Levels.VALUE) -> np.ndarray[Any, Any]:
         """Writes levels, ascending. Levels.AREA makes all strips equal in area. Levels.LENGTH makes the mean widths of
         the strips equal. So iso-lines around point sites are evenly spaced, where equal steps of the value would
         crowd them. Levels.LENGTH leaves out the parts where the field is flat to 1e-9 of its range.
@@ -1668,7 +1671,7 @@ class Surface(Object):
                 'line_levels': (np.uint32, ('line_capacity',)), 'line_closed': (np.int32, ('line_capacity',))})
         return Isolines(line_closed=found.pop('line_closed') != 0, **found)
 
-    def find_critical_points(self, field: ArrayLike, *, info: Optional[CriticalInfo] = None) -> np.ndarray:
+    def find_critical_points(self, field: ArrayLike, *, info: Optional[CriticalInfo] = None) -> np.ndarray[Any, Any]:
         """Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex
         decide (Banchoff 1970). Take its neighbours with lower values and the edges between them. The index of the
         vertex is 1 minus their Euler characteristic. The vertex number breaks ties, so a flat area has critical
@@ -1695,7 +1698,7 @@ class Surface(Object):
 
     def find_extremities(self, *, kind: int = ExtremityKind.POISSON, least_length_share: float = 0.0,
             source_count: int = 0, geodesics: Optional[Geodesics] = None, progress: Optional[Progress] = None,
-            field: Optional[np.ndarray] = None) -> np.ndarray:
+            field: Optional[np.ndarray[Any, Any]] = None) -> np.ndarray[Any, Any]:
         """Proposes the tips of the surface as places for sites and handles, the longest tip first. The list does not
         depend on the order of the vertices. Pose and meshing change it only within the resolution of the mesh.
 
@@ -1728,7 +1731,8 @@ class Surface(Object):
 
     def propose_handles(self, joints: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, *,
             skeleton: Optional[Skeleton] = None, up: Optional[ArrayLike] = None, least_length_share: float = 0.0,
-            limit: int = 0, progress: Optional[Progress] = None, regions: Optional[np.ndarray] = None) -> np.ndarray:
+            limit: int = 0, progress: Optional[Progress] = None, regions: Optional[np.ndarray[Any,
+            Any]] = None) -> np.ndarray[Any, Any]:
         """Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals
         come first, then the others, each group by length, the longest first. The places do not depend on the order of
         the vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, a
@@ -1834,7 +1838,7 @@ class Solver(Recorded):
 
     def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
             places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
-            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> np.ndarray:
+            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> np.ndarray[Any, Any]:
         """Adds sites.
 
         vertices: (site_count,) vertices of your mesh, or None
@@ -1921,7 +1925,7 @@ class Solver(Recorded):
 
     def edit_sites(self, remove_sites: Optional[ArrayLike] = None, move_sites: Optional[ArrayLike] = None,
             set_sites: Optional[ArrayLike] = None, set_values: Optional[ArrayLike] = None, *, move_to: Any = None,
-            add: Any = None) -> np.ndarray:
+            add: Any = None) -> np.ndarray[Any, Any]:
         """Applies a batch of edits at once.
 
         remove_sites: (remove_count,)
@@ -1976,8 +1980,8 @@ class Solver(Recorded):
         targets_ = c.array('targets', targets, 'f8', ('vertex_count', 'channel_count'))
         call('hf_solver_set_screening', self._handle, screening_, targets_)
 
-    def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
-            info: Optional[SolveInfo] = None) -> np.ndarray:
+    def solve(self, out: Optional[np.ndarray[Any, Any]] = None, *, dtype: Any = np.float32,
+            info: Optional[SolveInfo] = None) -> np.ndarray[Any, Any]:
         """Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their values
         exactly. The field is 0 on components without a site.
 
@@ -1992,7 +1996,7 @@ class Solver(Recorded):
         call('hf_solver_solve', self._handle, ref(out_view), ref(info, _raw.hf_solve_info))
         return out
 
-    def solve_at(self, vertices: ArrayLike) -> np.ndarray:
+    def solve_at(self, vertices: ArrayLike) -> np.ndarray[Any, Any]:
         """Solves for the field at chosen vertices only, with the same bits as Solver.solve in double. The call reads
         only those columns of the factor on which these vertices depend (elimination paths), on the calling thread.
         One path is up to a sixth of the factor, but the paths of many vertices share most of their columns. The call
@@ -2010,8 +2014,8 @@ class Solver(Recorded):
         call('hf_solver_solve_at', self._handle, c.n.setdefault('vertex_count', 1), vertices_, address(values))
         return values
 
-    def solve_vectors(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
-            normals: Optional[np.ndarray] = None, info: Optional[SolveInfo] = None) -> np.ndarray:
+    def solve_vectors(self, out: Optional[np.ndarray[Any, Any]] = None, *, dtype: Any = np.float32,
+            normals: Optional[np.ndarray[Any, Any]] = None, info: Optional[SolveInfo] = None) -> np.ndarray[Any, Any]:
         """Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section
         3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then
         projects the vector v of each vertex on the tangent plane: v - (n . v) n. Here n is the area-weighted normal.
@@ -2030,8 +2034,8 @@ class Solver(Recorded):
         call('hf_solver_solve_vectors', self._handle, ref(out_view), address(normals), ref(info, _raw.hf_solve_info))
         return out
 
-    def solve_preview(self, correction_count: int = 0, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
-            info: Optional[PreviewInfo] = None) -> np.ndarray:
+    def solve_preview(self, correction_count: int = 0, out: Optional[np.ndarray[Any, Any]] = None, *,
+            dtype: Any = np.float32, info: Optional[PreviewInfo] = None) -> np.ndarray[Any, Any]:
         """Solves with a single-precision copy of the factor. This reads half the bytes of Solver.solve; use it while the
         user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic
         fields, long shapes and crowded sites can have an error of any size: ask for corrections there and read
@@ -2157,7 +2161,8 @@ class Geodesics(Object):
         desc = _geodesics_desc(c, method=method, smoothing=smoothing, progress=progress)
         self._own('hf_geodesics_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
 
-    def solve(self, sources: ArrayLike, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32) -> np.ndarray:
+    def solve(self, sources: ArrayLike, out: Optional[np.ndarray[Any, Any]] = None, *,
+            dtype: Any = np.float32) -> np.ndarray[Any, Any]:
         """Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh. The
         distance is 0 at the sources, and -1 at vertices that no source can reach.
 
@@ -2196,7 +2201,7 @@ class Geodesics(Object):
                 ('point_capacity',)), 'positions': (np.float64, ('point_capacity', 3))})
         return Path(length=path.length, **found)
 
-    def map(self, centre: PlaceLike, radius: float = 0.0) -> Tuple[np.ndarray, np.ndarray]:
+    def map(self, centre: PlaceLike, radius: float = 0.0) -> Tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
         """Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. A vertex
         lies at the length of its shortest path from the point, in the direction in which the path starts.
 
@@ -2250,7 +2255,7 @@ class Direction(Recorded):
         made._own('hf_direction_clone', c, self._handle)
         return made
 
-    def add_sites(self, vertices: ArrayLike, vectors: ArrayLike) -> np.ndarray:
+    def add_sites(self, vertices: ArrayLike, vectors: ArrayLike) -> np.ndarray[Any, Any]:
         """Adds constraints: vectors at vertices. The function projects the vectors on the tangent planes. Each
         constraint costs two sparse triangular solves (elimination paths) and two rows of a small dense system. For a
         batch of very many constraints, the function factorises once instead, with their vertices eliminated. Later
@@ -2325,7 +2330,7 @@ class Direction(Recorded):
         """Returns the number of constraints, or 0 for an invalid object."""
         return library().hf_direction_get_site_count(self._handle)
 
-    def sites(self) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def sites(self) -> Tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]]:
         """Writes the constraints. Their numbers ascend."""
         c = Call(self)
         count = ctypes.c_uint32()
@@ -2339,8 +2344,8 @@ class Direction(Recorded):
                 ('capacity', 3))})
         return found['sites'], found['vertices'], found['vectors']
 
-    def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
-            info: Optional[SolveInfo] = None) -> np.ndarray:
+    def solve(self, out: Optional[np.ndarray[Any, Any]] = None, *, dtype: Any = np.float32,
+            info: Optional[SolveInfo] = None) -> np.ndarray[Any, Any]:
         """Writes the field as vectors in space. The vectors are tangent to the surface up to 1e-12 of their length. For
         degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors;
         vertices that no constraint reaches get 0.
@@ -2356,7 +2361,7 @@ class Direction(Recorded):
         call('hf_direction_solve', self._handle, ref(out_view), ref(info, _raw.hf_solve_info))
         return out
 
-    def singularities(self) -> np.ndarray:
+    def singularities(self) -> np.ndarray[Any, Any]:
         """Lists the singularities of the field, ordered by triangle (Crane, Desbrun and Schroeder 2010, Section 5). On a
         closed manifold component of one orientation the indices sum to degree times the Euler characteristic.
 
@@ -2443,7 +2448,8 @@ class Pose(Recorded):
     def add_handles(self, region_vertices: Optional[Sequence[ArrayLike]] = None, *,
             vertices: Optional[ArrayLike] = None, places: Optional[Sequence[PlaceLike]] = None,
             points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, layer: int = 0,
-            in_place: bool = False, free_rotation: bool = False, progress: Optional[Progress] = None) -> np.ndarray:
+            in_place: bool = False, free_rotation: bool = False, progress: Optional[Progress] = None) -> np.ndarray[Any,
+            Any]:
         """Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a
         posed surface back to rest there. Use in_place to grab a posed surface. Each new handle then gets the rigid
         motion of its region in the last pose (Pose.handle writes it). The surface stays in place (to 1e-6 of the
@@ -2646,7 +2652,8 @@ class Pose(Recorded):
         """Returns the number of handles, or 0 for an invalid object."""
         return library().hf_pose_get_handle_count(self._handle)
 
-    def field(self, handle: int, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32) -> np.ndarray:
+    def field(self, handle: int, out: Optional[np.ndarray[Any, Any]] = None, *,
+            dtype: Any = np.float32) -> np.ndarray[Any, Any]:
         """Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
         reaches, the fields of all handles sum to 1.
 
@@ -2660,10 +2667,10 @@ class Pose(Recorded):
         call('hf_pose_get_field', self._handle, number(handle, 'handle', ctypes.c_uint32), ref(out_view))
         return out
 
-    def deform(self, out: Optional[np.ndarray] = None, *, iteration_count: int = 0, restart: bool = False,
+    def deform(self, out: Optional[np.ndarray[Any, Any]] = None, *, iteration_count: int = 0, restart: bool = False,
             refine: int = 0, refine_from_last: bool = False, first_vertex: int = 0, vertex_count: int = 0,
-            dtype: Any = np.float32, normals: Optional[np.ndarray] = None,
-            info: Optional[DeformInfo] = None) -> np.ndarray:
+            dtype: Any = np.float32, normals: Optional[np.ndarray[Any, Any]] = None,
+            info: Optional[DeformInfo] = None) -> np.ndarray[Any, Any]:
         """Does the same as Pose.deform, with the options of a desc.
 
         iteration_count: 1 to 1000; 0 = the pose's
@@ -2811,7 +2818,7 @@ class Pose(Recorded):
         call('hf_pose_solve', self._handle, number(iteration_count, 'iteration_count', ctypes.c_uint32), number(restart,
                 'restart', ctypes.c_int32), ref(info, _raw.hf_deform_info))
 
-    def blend_transforms(self) -> np.ndarray:
+    def blend_transforms(self) -> np.ndarray[Any, Any]:
         """Writes the transforms of the clusters in the last Pose.solve or Pose.deform, without its refine. Before the
         first solve they are identities. After handles were added or removed, solve before you read them: they may be
         identities until then. The call allocates nothing.
@@ -3095,7 +3102,7 @@ class Region(Recorded):
         call('hf_region_get_statistics', self._handle, ref(statistics))
         return statistics
 
-    def vertices(self, list: int = RegionList.INSIDE) -> np.ndarray:
+    def vertices(self, list: int = RegionList.INSIDE) -> np.ndarray[Any, Any]:
         """Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
 
         list: RegionList.
@@ -3113,7 +3120,7 @@ class Region(Recorded):
                 {'vertices': (np.uint32, ('capacity',))})
         return found['vertices']
 
-    def curve(self) -> np.ndarray:
+    def curve(self) -> np.ndarray[Any, Any]:
         """Writes the corners of the region's last curve, to draw it, in order, in the unit and frame of the positions in
         hf_region_desc. The last corner is joined to the first. Rings, added and removed vertices leave it as it is.
         """
@@ -3127,8 +3134,8 @@ class Region(Recorded):
                 {'points': (np.float64, ('capacity', 3))})
         return found['points']
 
-    def morph(self, weight: float = 0.0, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
-            normals: Optional[np.ndarray] = None) -> np.ndarray:
+    def morph(self, weight: float = 0.0, out: Optional[np.ndarray[Any, Any]] = None, *, dtype: Any = np.float32,
+            normals: Optional[np.ndarray[Any, Any]] = None) -> np.ndarray[Any, Any]:
         """Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
         hf_region_desc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A
         weight below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p. The call
@@ -3191,8 +3198,8 @@ class Detail(Object):
         self._own('hf_detail_create', c, handle_of(source, Region, 'source'), handle_of(target, Region, 'target'),
                 ref(desc))
 
-    def morph(self, weight: float = 0.0, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
-            normals: Optional[np.ndarray] = None) -> np.ndarray:
+    def morph(self, weight: float = 0.0, out: Optional[np.ndarray[Any, Any]] = None, *, dtype: Any = np.float32,
+            normals: Optional[np.ndarray[Any, Any]] = None) -> np.ndarray[Any, Any]:
         """Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight
         (transferred detail); all others keep their positions. Weight 0 gives the smooth base, and weight 1 the detail
         as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
@@ -3260,7 +3267,7 @@ class Retarget(Recorded):
         made._own('hf_retarget_clone', c, self._handle)
         return made
 
-    def solve(self, source_pose: ArrayLike, seconds: float = 0.0) -> np.ndarray:
+    def solve(self, source_pose: ArrayLike, seconds: float = 0.0) -> np.ndarray[Any, Any]:
         """Computes the pose of the target. The frame depends on the source pose and on the state of the feet: whether
         each is planted, and how far it is moved to keep its place. The state comes from the frames since the last
         reset and fades within a step.
@@ -3290,7 +3297,7 @@ class Retarget(Recorded):
         call('hf_retarget_get_info', self._handle, ref(info))
         return info
 
-    def chains(self) -> np.ndarray:
+    def chains(self) -> np.ndarray[Any, Any]:
         """Writes how chains follow."""
         c = Call(self)
         count = ctypes.c_uint32()
@@ -3302,7 +3309,7 @@ class Retarget(Recorded):
                 {'chains': (np.dtype(_raw.hf_chain_match), ('capacity',))})
         return found['chains']
 
-    def partners(self) -> np.ndarray:
+    def partners(self) -> np.ndarray[Any, Any]:
         """Writes which joint of the source each joint of the target follows. A joint between two gets the nearer, a
         joint without a partner NO_INDEX.
         """
@@ -3348,7 +3355,7 @@ class Skeleton(Object):
     def __repr__(self) -> str:
         return told(self, ('joint_count',))
 
-    def ground_velocity(self, poses: ArrayLike, seconds: float) -> np.ndarray:
+    def ground_velocity(self, poses: ArrayLike, seconds: float) -> np.ndarray[Any, Any]:
         """Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
         It is 0 for a clip that travels.
 
@@ -3382,7 +3389,7 @@ class Skeleton(Object):
         call('hf_skeleton_get_info', self._handle, ref(info))
         return info
 
-    def joints(self) -> np.ndarray:
+    def joints(self) -> np.ndarray[Any, Any]:
         """Writes one entry for each joint."""
         c = Call(self)
         count = ctypes.c_uint32()
@@ -3394,7 +3401,7 @@ class Skeleton(Object):
                 {'joints': (np.dtype(_raw.hf_joint_info), ('capacity',))})
         return found['joints']
 
-    def chains(self) -> np.ndarray:
+    def chains(self) -> np.ndarray[Any, Any]:
         """Writes the chains."""
         c = Call(self)
         count = ctypes.c_uint32()
@@ -3406,7 +3413,7 @@ class Skeleton(Object):
                 {'chains': (np.dtype(_raw.hf_chain), ('capacity',))})
         return found['chains']
 
-    def chain_joints(self) -> np.ndarray:
+    def chain_joints(self) -> np.ndarray[Any, Any]:
         """Writes the joints of chain after chain."""
         c = Call(self)
         count = ctypes.c_uint32()
@@ -3481,7 +3488,7 @@ class Transfer(Object):
 
     def add_pairs(self, source_vertices: Optional[Sequence[ArrayLike]] = None,
             target_vertices: Optional[Sequence[ArrayLike]] = None, flags: Optional[ArrayLike] = None, *,
-            progress: Optional[Progress] = None) -> np.ndarray:
+            progress: Optional[Progress] = None) -> np.ndarray[Any, Any]:
         """Adds pairs.
 
         source_vertices: lists of whole numbers: all regions one after the other; vertices of your mesh, up to 4
@@ -3590,9 +3597,9 @@ class Transfer(Object):
         vertices_ = c.array('vertices', vertices, 'u4', ('vertex_count',))
         call('hf_transfer_set_rigid_pieces', self._handle, c.n.setdefault('vertex_count', 1), vertices_)
 
-    def apply(self, source_positions: Optional[ArrayLike] = None, out: Optional[np.ndarray] = None, *,
+    def apply(self, source_positions: Optional[ArrayLike] = None, out: Optional[np.ndarray[Any, Any]] = None, *,
             hold_pairs: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None, dtype: Any = np.float32,
-            target_normals: Optional[np.ndarray] = None) -> np.ndarray:
+            target_normals: Optional[np.ndarray[Any, Any]] = None) -> np.ndarray[Any, Any]:
         """Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions
         differ much on the two surfaces (PairInfo), it takes the direction of the source's limb instead, by a share.
 
@@ -3631,7 +3638,7 @@ class Transfer(Object):
         call('hf_transfer_apply', self._handle, ref(desc))
         return out
 
-    def sinking(self) -> np.ndarray:
+    def sinking(self) -> np.ndarray[Any, Any]:
         """Writes which target vertices may sink into the ground.
 
         Raises EmptyError.
@@ -3801,7 +3808,7 @@ class Weights(Recorded):
                 ('vertex_capacity', 'influence_count')), 'origins': (np.uint8, ('vertex_capacity',))})
         return WeightsOut(**found)
 
-    def joints(self) -> Tuple[np.ndarray, np.ndarray]:
+    def joints(self) -> Tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
         """Writes the flags of each joint, and how many vertices have a constraint for it. Joints that do not deform have
         no flags.
         """
@@ -3832,7 +3839,7 @@ class Weights(Recorded):
         call('hf_weights_get_statistics', self._handle, ref(statistics))
         return statistics
 
-    def helpers(self, names: Union[None, str, Sequence[str]] = None) -> np.ndarray:
+    def helpers(self, names: Union[None, str, Sequence[str]] = None) -> np.ndarray[Any, Any]:
         """Proposes joints that should not deform, and says why. The weights do not change: to follow a proposal, set
         deforms to 0.
 
@@ -3893,7 +3900,8 @@ class Weights(Recorded):
             weights: Optional[ArrayLike] = None, *, to: int = MirrorTo.TO_NEGATIVE, distance: float = 0.0,
             angle: float = 0.0, influence_count: int = 0, progress: Optional[Progress] = None,
             info: Optional[WeightsMirrorInfo] = None,
-            statistics: Optional[WeightsMirrorStatistics] = None) -> Tuple[WeightsOut, np.ndarray, np.ndarray]:
+            statistics: Optional[WeightsMirrorStatistics] = None) -> Tuple[WeightsOut, np.ndarray[Any, Any],
+            np.ndarray[Any, Any]]:
         """Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
         nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
         fills in the rest. The plane comes from joints with partners, else from the surface. The largest component of
@@ -3943,12 +3951,14 @@ __all__ = [
     'Direction', 'DirectionStatistics', 'DistanceMethod', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow',
     'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal', 'HandleReason', 'HelperReason', 'Hit',
     'Isolines', 'JointFlag', 'JointInfo', 'JointKind', 'Levels', 'Link', 'LinkMode', 'LinksInfo',
-    'MeshStatistics', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo',
-    'Path', 'Place', 'Pose', 'PoseInfo', 'PoseStatistics', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo',
-    'QuadsMesh', 'Region', 'RegionInfo', 'RegionList', 'RegionStatistics', 'Retarget', 'RetargetInfo',
-    'RetargetStep', 'Role', 'RootMotion', 'Route', 'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton',
-    'SkeletonInfo', 'SkinInfo', 'SolveInfo', 'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface',
-    'SurfaceInfo', 'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo',
-    'TransferMode', 'TransferStatistics', 'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo',
-    'WeightsMirrorStatistics', 'WeightsOrigin', 'WeightsOut', 'WeightsStatistics', 'WeightsTransferInfo', 'Weld'
+    'MeshStatistics', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'NO_INDEX', 'Operator', 'Ordering', 'PairFlag',
+    'PairInfo', 'Path', 'Place', 'Pose', 'PoseInfo', 'PoseStatistics', 'PreviewInfo', 'Progress', 'Quads',
+    'QuadsInfo', 'QuadsMesh', 'Region', 'RegionInfo', 'RegionList', 'RegionStatistics', 'Retarget',
+    'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion', 'Route', 'ScaleFrom', 'Side', 'Singularity',
+    'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo', 'Solver', 'SolverInfo', 'SolverStatistics',
+    'Streamlines', 'Surface', 'SurfaceInfo', 'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials',
+    'TransferInfo', 'TransferMode', 'TransferStatistics', 'Transform', 'Weights', 'WeightsInfo',
+    'WeightsMirrorInfo', 'WeightsMirrorStatistics', 'WeightsOrigin', 'WeightsOut', 'WeightsStatistics',
+    'WeightsTransferInfo', 'Weld'
 ]
+__all__ += _errors.__all__

@@ -12,7 +12,13 @@ class HfError(Exception):
     """A call that failed. code: HF_ERROR_*; name: its name; index: what it is about, or None; function: of the C ABI."""
 
     code: int = 0
-    __str__ = Exception.__str__  # KeyError would show the repr of the message
+    name: str
+    index: Optional[int]
+    function: str
+    message: str
+
+    def __str__(self) -> str:
+        return Exception.__str__(self)  # KeyError would show the repr of the message
 
     def __init__(self, message: str, code: Optional[int] = None, index: Optional[int] = None, function: str = "") -> None:
         self.code = type(self).code if code is None else code

@@ -9,7 +9,7 @@ import functools
 import math
 import os
 import sys
-from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ._errors import EmptyError, InvalidArgumentError, NullPointerError, OutOfRa
 
 ArrayLike = Any
 PlaceLike = Union[int, Tuple[Sequence[int], Sequence[float]], _raw.hf_place, _raw.hf_hit]
+This = TypeVar("This", bound="Object")
 
 
 @functools.lru_cache(None)
@@ -32,7 +33,7 @@ def library() -> ctypes.CDLL:
             return _raw.load(path)
         except (OSError, AttributeError) as error:  # not there, of another version, or too old: a function is missing
             tried.append(f"{path}: {error}")
-    raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. " + "; ".join(tried))
+    raise ImportError("found no hf library; set HF_LIBRARY to libhf.so or put it into the package. " + "; ".join(tried))
 
 
 def version() -> Tuple[int, ...]:
@@ -319,7 +320,7 @@ class Object:
     _destroy = ""
     _handle: Optional[int] = None
     _open = False
-    _counts: tuple = ()  # of the object: how long its arrays are
+    _counts: Tuple[str, ...] = ()  # of the object: how long its arrays are
     _n: Dict[str, int] = {}
 
     def _own(self, function: str, call_of: Call, *arguments: Any) -> None:
@@ -350,7 +351,7 @@ class Object:
         raise TypeError(f"hf.{type(self).__name__} cannot be pickled: it lives in the memory of this process. "
                         "Send positions and triangles, or the bytes of Surface.save()")
 
-    def __copy__(self, memo: Any = None) -> Any:
+    def __copy__(self: This, memo: Any = None) -> This:
         """A clone, of classes that have one."""
         if not isinstance(self, Recorded):
             raise TypeError(f"hf.{type(self).__name__} cannot be copied; use the same object, or make another one")
@@ -358,7 +359,7 @@ class Object:
 
     __deepcopy__ = __copy__
 
-    def __enter__(self) -> Any:
+    def __enter__(self: This) -> This:
         return self
 
     def __exit__(self, *_: Any) -> None:

@@ -1,19 +1,24 @@
 """Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI as ctypes sees it."""
 # fmt: off
-from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p, sizeof)
+from __future__ import annotations
+
+from ctypes import (Array, CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p, sizeof)
+from typing import Any, List
 
 HEADER_VERSION = "0.1.0"
 
 class Struct(Structure):
     """A struct of zeros with its size set, shown with its fields."""
 
-    def __init__(self, *values, **fields) -> None:
+    struct_size: int
+
+    def __init__(self, *values: Any, **fields: Any) -> None:
         super().__init__(*values, **fields)
         if self._fields_[0][0] == "struct_size":
             self.struct_size = sizeof(self)
 
     def __repr__(self) -> str:
-        shown = []
+        shown: List[str] = []
         for name, *_ in self._fields_:
             value = getattr(self, name)
             if name not in ("struct_size", "reserved"):
@@ -269,8 +274,8 @@ class hf_factor_desc(Struct):
 class hf_link(Struct):
     """A spring from a vertex to a point of a triangle."""
     vertex: int
-    corners: object
-    barycentrics: object
+    corners: Array[c_uint32]
+    barycentrics: Array[c_double]
     length: float
     weight: float
     in_tree: int
@@ -310,9 +315,9 @@ class hf_faces_desc(Struct):
     """Faces of any number of corners."""
     struct_size: int
     reserved: int
-    corners: object
-    sizes: object
-    starts: object
+    corners: hf_array
+    sizes: hf_array
+    starts: hf_array
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("corners", hf_array), ("sizes", hf_array),
                 ("starts", hf_array)]
 
@@ -321,8 +326,8 @@ class hf_surface_desc(Struct):
     """The mesh and the options of a surface."""
     struct_size: int
     weld: int
-    positions: object
-    triangles: object
+    positions: hf_array
+    triangles: hf_array
     faces: int
     weld_tolerance: float
     operator_kind: int
@@ -333,8 +338,8 @@ class hf_surface_desc(Struct):
     triangle_limit: int
     memory_limit_mb: int
     work_limit_gflop: int
-    allocator: object
-    job_runner: object
+    allocator: hf_allocator
+    job_runner: hf_job_runner
     progress: int
     saved_factor: int
     links: int
@@ -350,9 +355,9 @@ class hf_graph_desc(Struct):
     """A graph of your own and the options of its surface"""
     struct_size: int
     vertex_count: int
-    edges: object
-    weights: object
-    masses: object
+    edges: hf_array
+    weights: hf_array
+    masses: hf_array
     allow_negative: int
     field_kind: int
     ordering: int
@@ -361,8 +366,8 @@ class hf_graph_desc(Struct):
     edge_limit: int
     memory_limit_mb: int
     work_limit_gflop: int
-    allocator: object
-    job_runner: object
+    allocator: hf_allocator
+    job_runner: hf_job_runner
     progress: int
     saved_factor: int
     _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("edges", hf_array), ("weights", hf_array),
@@ -540,9 +545,9 @@ class hf_surface_statistics(Struct):
 
 class hf_place(Struct):
     """A place on a surface"""
-    corners: object
+    corners: Array[c_uint32]
     reserved: int
-    barycentrics: object
+    barycentrics: Array[c_double]
     _fields_ = [("corners", c_uint32 * 3), ("reserved", c_uint32), ("barycentrics", c_double * 3)]
 
 
@@ -594,7 +599,7 @@ class hf_pick_desc(Struct):
     """Options of picking"""
     struct_size: int
     front_only: int
-    positions: object
+    positions: hf_array
     _fields_ = [("struct_size", c_uint32), ("front_only", c_int32), ("positions", hf_array)]
 
 
@@ -604,8 +609,8 @@ class hf_hit(Struct):
     found: int
     triangle: int
     vertex: int
-    place: object
-    position: object
+    place: hf_place
+    position: Array[c_double]
     distance: float
     _fields_ = [("struct_size", c_uint32), ("found", c_int32), ("triangle", c_uint32), ("vertex", c_uint32), ("place",
                 hf_place), ("position", c_double * 3), ("distance", c_double)]
@@ -833,7 +838,7 @@ class hf_extremity(Struct):
     vertex: int
     component: int
     length: float
-    position: object
+    position: Array[c_double]
     _fields_ = [("vertex", c_uint32), ("component", c_uint32), ("length", c_double), ("position", c_double * 3)]
 
 
@@ -923,8 +928,8 @@ class hf_handles_desc(Struct):
 
 class hf_transform(Struct):
     """A rigid motion of a handle from its rest place."""
-    rotation: object
-    translation: object
+    rotation: Array[c_double]
+    translation: Array[c_double]
     _fields_ = [("rotation", c_double * 4), ("translation", c_double * 3)]
 
 
@@ -934,10 +939,10 @@ class hf_handle_info(Struct):
     vertex_count: int
     site_count: int
     component: int
-    centroid: object
+    centroid: Array[c_double]
     leak: float
-    rotation: object
-    translation: object
+    rotation: Array[c_double]
+    translation: Array[c_double]
     layer: int
     free_rotation: int
     following: float
@@ -964,8 +969,8 @@ class hf_deform_desc(Struct):
     """The options of hf_pose_deform are outputs and a range of vertices."""
     struct_size: int
     iteration_count: int
-    positions: object
-    normals: object
+    positions: hf_array_out
+    normals: hf_array_out
     restart: int
     refine: int
     refine_from_last: int
@@ -1017,9 +1022,9 @@ class hf_blend_info(Struct):
     revision: int
     reserved: int
     offset_share: float
-    centre: object
-    low: object
-    high: object
+    centre: Array[c_double]
+    low: Array[c_double]
+    high: Array[c_double]
     _fields_ = [("struct_size", c_uint32), ("cluster_count", c_uint32), ("revision", c_uint32), ("reserved",
                 c_uint32), ("offset_share", c_double), ("centre", c_double * 3), ("low", c_double * 3), ("high",
                 c_double * 3)]
@@ -1072,7 +1077,7 @@ class hf_handle_proposals_desc(Struct):
     joints: int
     parents: int
     skeleton: int
-    up: object
+    up: Array[c_double]
     least_length_share: float
     limit: int
     reserved: int
@@ -1093,7 +1098,7 @@ class hf_handle_proposal(Struct):
     role: int
     side: int
     reserved: int
-    position: object
+    position: Array[c_double]
     radius: float
     length: float
     following: float
@@ -1112,7 +1117,7 @@ class hf_quads_desc(Struct):
     crease_count: int
     guide_count: int
     irregular_count: int
-    symmetry_plane: object
+    symmetry_plane: Array[c_double]
     crease_edges: int
     guide_vertices: int
     guide_vectors: int
@@ -1181,7 +1186,7 @@ class hf_streamlines(Struct):
 class hf_region_desc(Struct):
     struct_size: int
     base: int
-    positions: object
+    positions: hf_array
     progress: int
     _fields_ = [("struct_size", c_uint32), ("base", c_int32), ("positions", hf_array), ("progress", c_void_p)]
 
@@ -1252,8 +1257,8 @@ class hf_morph_desc(Struct):
     struct_size: int
     reserved: int
     weight: float
-    positions: object
-    normals: object
+    positions: hf_array_out
+    normals: hf_array_out
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("weight", c_double), ("positions", hf_array_out),
                 ("normals", hf_array_out)]
 
@@ -1276,7 +1281,7 @@ class hf_retarget_desc(Struct):
     leave_out: int
     reserved: int
     scale: float
-    ground_velocity: object
+    ground_velocity: Array[c_double]
     source_rest: int
     target_rest: int
     progress: int
@@ -1348,7 +1353,7 @@ class hf_skeleton_desc(Struct):
     reserved: int
     travels: int
     skin: int
-    allocator: object
+    allocator: hf_allocator
     progress: int
     _fields_ = [("struct_size", c_uint32), ("joint_count", c_uint32), ("names", c_void_p), ("parents", c_void_p),
                 ("rest", c_void_p), ("inverse_binds", c_void_p), ("up", c_void_p), ("forward", c_void_p), ("roles",
@@ -1362,10 +1367,10 @@ class hf_skeleton_info(Struct):
     joint_count: int
     chain_count: int
     reserved: int
-    up: object
-    forward: object
-    left: object
-    middle: object
+    up: Array[c_double]
+    forward: Array[c_double]
+    left: Array[c_double]
+    middle: Array[c_double]
     up_confidence: float
     forward_confidence: float
     left_confidence: float
@@ -1413,10 +1418,10 @@ class hf_transfer_desc(Struct):
     kernel_width: float
     scale: float
     alignment_angle: float
-    source_axes: object
-    target_axes: object
-    source_rest: object
-    target_rest: object
+    source_axes: Array[c_double]
+    target_axes: Array[c_double]
+    source_rest: hf_array
+    target_rest: hf_array
     _fields_ = [("struct_size", c_uint32), ("mode", c_int32), ("cluster_count", c_uint32), ("ground", c_int32),
                 ("kernel_width", c_double), ("scale", c_double), ("alignment_angle", c_double), ("source_axes",
                 c_double * 9), ("target_axes", c_double * 9), ("source_rest", hf_array), ("target_rest", hf_array)]
@@ -1493,9 +1498,9 @@ class hf_transfer_frame(Struct):
     """Describes one frame"""
     struct_size: int
     hold_count: int
-    source_positions: object
-    target_positions: object
-    target_normals: object
+    source_positions: hf_array
+    target_positions: hf_array_out
+    target_normals: hf_array_out
     hold_pairs: int
     hold_positions: int
     _fields_ = [("struct_size", c_uint32), ("hold_count", c_uint32), ("source_positions", hf_array),
@@ -1660,8 +1665,8 @@ class hf_weights_mirror_info(Struct):
     nearest_count: int
     rigid_count: int
     isolated_count: int
-    point: object
-    normal: object
+    point: Array[c_double]
+    normal: Array[c_double]
     _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("plane_from", c_int32), ("named_count",
                 c_uint32), ("placed_count", c_uint32), ("centre_count", c_uint32), ("given_count", c_uint32),
                 ("alone_count", c_uint32), ("kept_count", c_uint32), ("matched_count", c_uint32), ("solved_count",
