@@ -173,6 +173,15 @@ const Creature& creature(const std::string& name, std::uint32_t vertices) {
   return kept<Creature>(name, vertices, [&] { return samples::make_creature(name, vertices); });
 }
 
+Creature read_back(Creature creature) {
+  Writer writer;
+  each(writer, creature);
+  Reader reader{writer.bytes};
+  Creature out;
+  each(reader, out);
+  return out;
+}
+
 const ShapeMesh& cactus(std::uint32_t vertices) {
   return kept<ShapeMesh>("cactus", vertices, [&] { return samples::cactus(vertices); });
 }

@@ -12,6 +12,8 @@ namespace hf_test {
 
 const samples::Creature& creature(const std::string& name, std::uint32_t vertices);
 const samples::ShapeMesh& cactus(std::uint32_t vertices);
+// Written as it is kept, and read again.
+samples::Creature read_back(samples::Creature creature);
 
 }  // namespace hf_test
 
