@@ -21,6 +21,14 @@ else()
   endif()
 endif()
 
+# GCC collects garbage when its heap has grown to so many kB, 131072 by default: this trades memory for its time in a build with
+# tests. Code is the same. With 524288 it takes 5 to 12 % less for a file of tests and 3 % less for a room, and up to 40 % more
+# memory (1.0 GB for gltf_test). Twice that changes neither.
+set(hf_compiler_heap)
+if(HF_BUILD_TESTS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT HF_SANITIZE)
+  set(hf_compiler_heap $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=524288>)
+endif()
+
 # Results must not depend on the compiler's mood: no contraction of a*b+c unless the code asks for it (kernels use FMA
 # intrinsics), no -ffast-math, no -march=native.
 function(hf_target_defaults target)
@@ -32,7 +40,7 @@ function(hf_target_defaults target)
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF C_STANDARD 99 C_EXTENSIONS OFF
     CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  target_compile_options(${target} PRIVATE ${hf_compile_options})
+  target_compile_options(${target} PRIVATE ${hf_compile_options} ${hf_compiler_heap})
   hf_harden(${target})
   if(HF_SANITIZE)
     # -O1 -g1: reports name functions and lines; with more, unrolled kernels and Eigen's templates take minutes each to compile

@@ -3,20 +3,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace samples {
 namespace {
 
-// Folds b into a with the smooth minimum; a's gradient becomes the gradient of the result.
+// A creature has up to 70 blobs; detail() keeps a distance for each on the stack.
+constexpr size_t most_blobs = 256;
+
+// Folds b into a with the smooth minimum; a's gradient becomes the gradient of the result. Most blobs are farther apart
+// than k: there the lesser one stays as it is.
 void fold_min(double& a, dvec3& gradient_a, double b, const dvec3& gradient_b, double k) {
-  const double h = std::max(k - std::abs(a - b), 0.0) / k, share = 0.5 * h * h;
+  if (std::abs(a - b) >= k) {
+    if (b <= a) {
+      a = b;
+      gradient_a = gradient_b;
+    }
+    return;
+  }
+  const double h = (k - std::abs(a - b)) / k, share = 0.5 * h * h;
   const double of_b = a < b ? share : 1 - share;
   gradient_a = (1 - of_b) * gradient_a + of_b * gradient_b;
   a = std::min(a, b) - h * h * h * k * (1.0 / 6.0);
 }
 
 double smooth_min(double a, double b, double k) {
-  const double h = std::max(k - std::abs(a - b), 0.0) / k;
+  if (std::abs(a - b) >= k) return std::min(a, b);
+  const double h = (k - std::abs(a - b)) / k;
   return std::min(a, b) - h * h * h * k * (1.0 / 6.0);
 }
 
@@ -38,6 +51,8 @@ void Blob::prepare() {
   only_sphere_ = radius_a >= radius_b ? 0 : 1;
   length_ = one_holds_the_other ? 0 : std::sqrt(length2);
   slope_ = one_holds_the_other ? 0 : difference / std::sqrt(length2 - difference * difference);
+  round_ = to_local == dmat3(1.0);
+  log_detail_ = std::log(detail);
 }
 
 // Where on the axis the sphere sits that is nearest to a point: t in 0..1, in the blob's local space. For a tapered
@@ -50,18 +65,18 @@ double Blob::nearest_sphere(const dvec3& pa) const {
 }
 
 double Blob::distance(const dvec3& p) const {
-  const dvec3 pa = to_local * (p - a);
+  const dvec3 pa = local(p - a);
   const double t = nearest_sphere(pa);
   return (length(pa - t * ba_) - (radius_a + t * (radius_b - radius_a))) * thinnest;
 }
 
 double Blob::distance(const dvec3& p, dvec3& gradient) const {
-  const dvec3 pa = to_local * (p - a);
+  const dvec3 pa = local(p - a);
   const double t = nearest_sphere(pa);
   const dvec3 off = pa - t * ba_;
   const double size = length(off);
   // t minimises the distance, so its own change does not count
-  gradient = size > 0 ? thinnest / size * (transpose(to_local) * off) : dvec3(0, thinnest, 0);
+  gradient = size > 0 ? thinnest / size * (round_ ? off : transpose(to_local) * off) : dvec3(0, thinnest, 0);
   return (size - (radius_a + t * (radius_b - radius_a))) * thinnest;
 }
 
@@ -95,6 +110,7 @@ Blob ellipsoid(const dvec3& centre, const dvec3& radii, double blend, const dvec
 }
 
 void ImplicitBody::finish() {
+  if (blobs.size() > most_blobs) throw std::runtime_error("the body has more than 256 blobs");
   lower = dvec3(1e300);
   upper = dvec3(-1e300);
   for (Blob& blob : blobs) {
@@ -152,11 +168,21 @@ void ImplicitBody::for_each_near(const dvec3& p, Visit visit) const {
   for (uint32_t i = range.begin; i < range.end; ++i) visit(blobs[entries_[i]]);
 }
 
-double ImplicitBody::value(const dvec3& p) const {
+// tell(DISTANCE) is called for each blob near p.
+template <typename Tell>
+double ImplicitBody::value(const dvec3& p, Tell tell) const {
   double field = 1e3;
-  for_each_near(p, [&](const Blob& blob) { field = smooth_min(field, blob.distance(p), blob.blend); });
+  for_each_near(p, [&](const Blob& blob) {
+    const double distance = blob.distance(p);
+    tell(distance);
+    field = smooth_min(field, distance, blob.blend);
+  });
   if (cut_at_ground) field = -smooth_min(-field, p.y, ground_edge);
   return field;
+}
+
+double ImplicitBody::value(const dvec3& p) const {
+  return value(p, [](double) {});
 }
 
 double ImplicitBody::value(const dvec3& p, dvec3& gradient) const {
@@ -198,10 +224,13 @@ dvec3 ImplicitBody::project(dvec3 p, int steps) const {
 
 double ImplicitBody::detail(const dvec3& p) const {
   double sum = 0, weight = 0;
-  const double nearest = value(p), reach = 0.45 * cell_;
+  double distances[most_blobs];
+  double* next = distances;
+  const double nearest = value(p, [&](double distance) { *next++ = distance; }), reach = 0.45 * cell_;
+  const double* distance = distances;
   for_each_near(p, [&](const Blob& blob) {
-    const double w = std::exp(-std::max(0.0, blob.distance(p) - nearest) / reach);
-    sum += w * std::log(blob.detail);
+    const double w = std::exp(-std::max(0.0, *distance++ - nearest) / reach);
+    sum += w * blob.log_detail();
     weight += w;
   });
   return weight > 0 ? std::exp(sum / weight) : 1.0;

@@ -4,7 +4,8 @@
 // flattened ones). The field is folded in the order of the blobs with the cubic smooth minimum
 //   smin(a, b, k) = min(a, b) - h^3 k / 6,  h = max(k - |a - b|, 0) / k      (Quilez, "smooth minimum"; C2)
 // so a blob acts only where its distance comes within about k of the field: evaluation looks at the blobs near the
-// point, kept in a coarse grid. Cost of value(): O(blobs near the point). Nothing here can fail after finish().
+// point, kept in a coarse grid. Cost of value(): O(blobs near the point). finish() refuses more than 256
+// blobs; nothing can fail after it.
 #ifndef HF_SAMPLES_ASSETS_IMPLICIT_H
 #define HF_SAMPLES_ASSETS_IMPLICIT_H
 
@@ -30,14 +31,19 @@ struct Blob {
   void prepare();
   double distance(const dvec3& p) const;
   double distance(const dvec3& p, dvec3& gradient) const;
+  double log_detail() const { return log_detail_; }
 
  private:
+  // A round section is not scaled: the product with the identity would give the same bits.
+  dvec3 local(const dvec3& offset) const { return round_ ? offset : to_local * offset; }
   double nearest_sphere(const dvec3& pa) const;
 
   dvec3 ba_{0};             // the axis in local space
   double length_ = 0;       // of it; 0 where one sphere holds the other
   double slope_ = 0;        // of the cone: offset along the axis for distance across it
   double only_sphere_ = 0;  // t of the larger sphere
+  double log_detail_ = 0;   // logarithm of detail
+  bool round_ = true;       // to_local is the identity
 };
 
 // A tapered capsule from a to b. `side` is the direction whose half width is `flatten` times the radius (not parallel
@@ -76,6 +82,8 @@ class ImplicitBody {
     uint32_t begin = 0, end = 0;
   };
   Range near(const dvec3& p) const;
+  template <typename Tell>
+  double value(const dvec3& p, Tell tell) const;
   template <typename Visit>
   void for_each_near(const dvec3& p, Visit visit) const;
 

@@ -9,6 +9,7 @@
 #include "assets/shapes.h"
 #include "body.h"
 #include "common/mesh_file.h"
+#include "support/creature.h"
 
 namespace invariance {
 namespace {
@@ -18,7 +19,7 @@ Body made(const std::string& name, const samples::ShapeMesh& mesh) {
 }
 
 Body creature(const std::string& name, std::uint32_t vertices) {
-  return made(name, samples::welded_surface(samples::make_creature(name, vertices)));
+  return made(name, samples::welded_surface(hf_test::creature(name, vertices)));
 }
 
 // A sphere among five smaller ones that touch nothing: a body of pieces.
@@ -69,7 +70,7 @@ void add_made(std::vector<Body>& out, bool full) {
   if (!full) return;
   out.push_back(creature("bull", 900));
   out.push_back(creature("biped", 900));
-  out.push_back(made("cactus", samples::cactus(700)));
+  out.push_back(made("cactus", hf_test::cactus(700)));
   out.push_back(made("sphere", uneven(samples::sphere(8), 0.02)));
   out.push_back(made("box", uneven(samples::box(1, 2, 0.7, 6, 12, 4), 0.01)));
   out.push_back(made("bar", uneven(samples::bar(5), 0.01)));

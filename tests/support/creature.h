@@ -1,22 +1,19 @@
-// The creatures of samples/assets, each made once for the program: one takes a second.
+// The creatures and the cactus of samples/assets for tests. One takes up to a second to make, so each is made once for
+// all programs of tests: it is kept in a file of the build folder. A build of samples/assets removes the files.
 #ifndef HF_TESTS_SUPPORT_CREATURE_H
 #define HF_TESTS_SUPPORT_CREATURE_H
 
 #include <cstdint>
-#include <map>
 #include <string>
-#include <utility>
 
 #include "assets/creature.h"
 
 namespace hf_test {
 
-inline const samples::Creature& creature(const std::string& name, std::uint32_t vertices) {
-  static std::map<std::pair<std::string, std::uint32_t>, samples::Creature> made;
-  auto found = made.find({name, vertices});
-  if (found == made.end()) found = made.emplace(std::pair(name, vertices), samples::make_creature(name, vertices)).first;
-  return found->second;
-}
+const samples::Creature& creature(const std::string& name, std::uint32_t vertices);
+const samples::ShapeMesh& cactus(std::uint32_t vertices);
+// Written as it is kept, and read again.
+samples::Creature read_back(samples::Creature creature);
 
 }  // namespace hf_test
 

@@ -10,6 +10,7 @@
 
 #include "assets/shapes.h"
 #include "deform/pose.h"
+#include "support/creature.h"
 #include "support/meshes.h"
 
 namespace deform_test {
@@ -24,7 +25,7 @@ inline hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape
 inline const hf_test::PlainMesh& cactus(std::uint32_t vertices) {
   static std::map<std::uint32_t, hf_test::PlainMesh> made;
   const auto [at, fresh] = made.try_emplace(vertices);
-  if (fresh) at->second = plain(samples::cactus(vertices));
+  if (fresh) at->second = plain(hf_test::cactus(vertices));
   return at->second;
 }
 

@@ -139,7 +139,7 @@ TEST(Proposals, AllCanBeAddedAsHandlesAndTheFeetStayWhenATipIsDragged) {
 
 // Of two joints beside each other one is proposed: which one must not follow from their order in the skin.
 TEST(Proposals, OfAGivenSkeletonDoNotDependOnTheOrderOfItsJoints) {
-  const samples::Creature horse = samples::make_creature("horse", 600);
+  const samples::Creature horse = hf_test::creature("horse", 600);
   const std::vector<double> world = samples::rest_pose(horse);
   const auto count = static_cast<uint32_t>(horse.skeleton.size());
   Body body;

@@ -2,6 +2,7 @@
 #include "detail/carried_detail.h"
 
 #include "detail_support.h"
+#include "support/creature.h"
 
 namespace {
 
@@ -196,7 +197,7 @@ TEST(CarriedDetail, RegionsThatAreNoDiscsAreRefused) {
 
 TEST(DiscMap, IsAnEmbeddingAndItsSearchFindsEveryTriangle) {
   const Region region =
-      region_where(surface_of(make_core(plain(samples::cactus(3000)))), [](Vec3 p) { return p.y > 0.9; });
+      region_where(surface_of(make_core(plain(hf_test::cactus(3000)))), [](Vec3 p) { return p.y > 0.9; });
   Memory& memory = memory_of(region);
   const RegionState& state = *region.state();
   const DiscBoundary boundary(*region.surface(), state, memory);

@@ -10,6 +10,7 @@
 #include "analysis_support.h"
 #include "base/index.h"
 #include "field/scalar_field.h"
+#include "support/creature.h"
 #include "support/engines.h"
 
 namespace {
@@ -267,7 +268,7 @@ TEST(CriticalPointsUnderPenalty, are_the_very_vertices_of_the_exact_field) {
   const PlainMesh meshes[] = {hf_test::from_shape(samples::jittered_torus(60, 60)),
                               hf_test::from_shape(samples::sphere(18)),
                               hf_test::from_shape(samples::bumpy_plane(60, 60)),
-                              hf_test::from_shape(samples::cactus(3000)), hf_test::ladder(3, 0.14)};
+                              hf_test::from_shape(hf_test::cactus(3000)), hf_test::ladder(3, 0.14)};
   int sets = 0, changed_at_100 = 0, changed_at_1 = 0;
   for (int run = 0; run < 10; ++run) {
     const PlainMesh& mesh = meshes[run / 2];

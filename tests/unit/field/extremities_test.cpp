@@ -13,6 +13,7 @@
 #include "assets/creature.h"
 #include "base/error.h"
 #include "field/peaks.h"
+#include "support/creature.h"
 
 namespace {
 
@@ -54,7 +55,7 @@ const std::map<std::string, std::vector<Tip>> tips = {{"horse",
 const PlainMesh& creature(const std::string& name, std::uint32_t vertices) {
   static std::map<std::pair<std::string, std::uint32_t>, PlainMesh> made;
   const auto [entry, fresh] = made.try_emplace({name, vertices});
-  if (fresh) entry->second = hf_test::from_shape(samples::welded_surface(samples::make_creature(name, vertices)));
+  if (fresh) entry->second = hf_test::from_shape(samples::welded_surface(hf_test::creature(name, vertices)));
   return entry->second;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "assets/shapes.h"
@@ -120,7 +121,7 @@ TEST(HarmonicField, converges_with_h_squared_to_the_logarithm_on_an_annulus) {
   EXPECT_GT(middle / fine, 3.5);
 }
 
-TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300K) {
+TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes) {
   const struct {
     const char* name;
     PlainMesh mesh;
@@ -129,7 +130,9 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
                {"sphere 16K", from_shape(samples::sphere(40))},
                {"bar 6.5K", from_shape(samples::bar(19))},
                {"cylinder", from_shape(samples::cylinder(16, 100))},
-               {"torus 304K", from_shape(samples::jittered_torus(551, 552))}};
+               // the long form takes the largest mesh, of 304,152 vertices
+               {"large torus", std::getenv("HF_FULL_TESTS") ? from_shape(samples::jittered_torus(551, 552))
+                                                            : from_shape(samples::jittered_torus(205, 206))}};
   for (const auto& entry : cases) {
     hf_inner::ScalarField exact = make_field(entry.mesh, hf_test::EngineKind::refactor);
     hf_inner::ScalarField soft(exact.shared_core(), 1, 1000);

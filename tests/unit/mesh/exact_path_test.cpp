@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/index.h"
+#include "support/creature.h"
 #include "support/dirty_meshes.h"
 #include "support/meshes.h"
 #include "unit/field/analysis_support.h"
@@ -123,7 +124,7 @@ TEST(ShortestPath, passes_a_vertex_in_one_point) {
   const std::pair<const char*, PlainMesh> meshes[] = {{"thirds", thirds},
                                                       {"grid", cut},
                                                       {"ball", hf_test::sphere(16)},
-                                                      {"cactus", hf_test::from_shape(samples::cactus(3000))}};
+                                                      {"cactus", hf_test::from_shape(hf_test::cactus(3000))}};
   std::mt19937 random(2);
   for (const auto& [name, plain] : meshes) {
     const Shape shape(plain);

@@ -14,6 +14,7 @@
 #include "quads/field_quads.h"
 #include "quads/surface_distance.h"
 #include "remesh/relax.h"
+#include "support/creature.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 
@@ -138,7 +139,7 @@ TEST(Quads, OfTheCreaturesAreValidEvenAndNear) {
   // Distances over the box diagonal; an edge length is 0.022. The horse was 0.019 away while steps of fitting were
   // undone for corners that unfolding mends.
   for (const auto& [name, most] : {std::pair("biped", 0.01), {"horse", 0.014}, {"bull", 0.01}}) {
-    const hf_test::PlainMesh mesh = plain(samples::welded_surface(samples::make_creature(name, 6000)));
+    const hf_test::PlainMesh mesh = plain(samples::welded_surface(hf_test::creature(name, 6000)));
     const auto core = hf_test::make_core(mesh);
     const QuadResult result = make(core);
     expect_valid(*core, result, name);
@@ -188,7 +189,7 @@ TEST(Quads, OfTheSharedMeshesAreValidAndNear) {
 }
 
 TEST(Quads, TheSameFromAnyNumberOfThreads) {
-  const hf_test::PlainMesh mesh = plain(samples::cactus(3000));
+  const hf_test::PlainMesh mesh = plain(hf_test::cactus(3000));
   // the results lie in the cores' memory
   const auto one_core = hf_test::make_core(mesh, 1), four_core = hf_test::make_core(mesh, 4);
   const QuadResult one = make(one_core), four = make(four_core);
@@ -217,7 +218,7 @@ TEST(Relax, WalksStraightOverEdgesAndStopsAtABorder) {
 }
 
 TEST(NearestTriangle, AgreesWithTryingThemAll) {
-  const auto core = hf_test::make_core(plain(samples::cactus(800)));
+  const auto core = hf_test::make_core(plain(hf_test::cactus(800)));
   Memory& memory = *core->memory;
   Table<Vec3> positions(memory);
   Table<std::int32_t> corners(memory), one(memory);

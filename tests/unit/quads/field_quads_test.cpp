@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "quads/untangle.h"
+#include "support/creature.h"
 #include "support/dense.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
@@ -61,7 +62,7 @@ std::vector<std::pair<std::string, std::shared_ptr<const Core>>> shapes() {
   std::vector<std::pair<std::string, std::shared_ptr<const Core>>> out;
   out.emplace_back("sphere", core_of(samples::sphere(24)));
   out.emplace_back("torus", core_of(samples::jittered_torus(40, 30)));
-  out.emplace_back("cactus", core_of(samples::cactus(3000)));
+  out.emplace_back("cactus", core_of(hf_test::cactus(3000)));
   out.emplace_back("ladder of genus 3", hf_test::make_core(hf_test::ladder(3, 0.16)));
   hf_test::PlainMesh two = hf_test::torus(24, 18);
   hf_test::append(two, hf_test::torus(20, 15, 0.1), 8);
@@ -259,7 +260,7 @@ TEST(FieldQuads, untangling_finds_back_a_plane_whose_inside_is_scrambled) {
 
 TEST(FieldQuads, rounding_one_after_the_other_solves_the_dense_system) {
   for (const auto& core :
-       {core_of(samples::sphere(8)), core_of(samples::jittered_torus(16, 10)), core_of(samples::cactus(500))}) {
+       {core_of(samples::sphere(8)), core_of(samples::jittered_torus(16, 10)), core_of(hf_test::cactus(500))}) {
     const Stages stages(core);
     GridMapper mapper = stages.mapper();
     const double edge_length = 0.1;
@@ -290,7 +291,7 @@ TEST(FieldQuads, rounding_one_after_the_other_solves_the_dense_system) {
 }
 
 TEST(FieldQuads, rounding_takes_the_unknown_nearest_to_a_whole_number_at_every_step) {
-  const Stages stages(core_of(samples::cactus(500)));
+  const Stages stages(core_of(hf_test::cactus(500)));
   GridMapper mapper = stages.mapper();
   const double edge_length = 0.07;
   Vector<Index> fixed;

@@ -10,6 +10,7 @@
 #include "assets/shapes.h"
 #include "base/error.h"
 #include "quads/symmetric.h"
+#include "support/creature.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 
@@ -314,7 +315,7 @@ TEST(SymmetricQuads, surfaces_without_that_symmetry_are_refused) {
   };
   const auto torus = core_of(samples::jittered_torus(30, 20));
   EXPECT_NE(refusal(torus, {1, 0, 0}, 0.7).find("not symmetric"), std::string::npos);
-  EXPECT_NE(refusal(core_of(samples::cactus(2000)), {1, 0.3, 0.2}, 0).find("not symmetric"), std::string::npos);
+  EXPECT_NE(refusal(core_of(hf_test::cactus(2000)), {1, 0.3, 0.2}, 0).find("not symmetric"), std::string::npos);
   EXPECT_EQ(refusal(torus, {1, 0, 0}, 0), "none");
 }
 

@@ -9,6 +9,7 @@
 #include "assets/shapes.h"
 #include "quads/field_quads.h"
 #include "remesh/quad_distance.h"
+#include "support/creature.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 
@@ -127,7 +128,7 @@ struct Extent {
 
 // Three lines or less would run round the legs, which then are two quads back to back, or none.
 TEST(SmallParts, limbs_that_few_lines_run_round_are_kept) {
-  const samples::ShapeMesh shape = samples::welded_surface(samples::make_creature("horse", 3000));
+  const samples::ShapeMesh shape = samples::welded_surface(hf_test::creature("horse", 3000));
   const auto core = hf_test::make_core({shape.positions, shape.triangles});
   const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), *core->memory);
   const QuadDistance distance(surface, 0.01, *core->memory);

@@ -15,6 +15,7 @@
 #include "remesh/quad_faults.h"
 #include "remesh/refine.h"
 #include "remesh/relax.h"
+#include "support/creature.h"
 #include "support/meshes.h"
 
 namespace {
@@ -140,7 +141,7 @@ TEST(SplitVertex, SplitsAcrossTheWay) {
 
 TEST(FitQuads, BringsTheMeshNearAndItStaysClosedAndOfQuads) {
   const double edge_length = 0.02;
-  const Made made(plain(samples::welded_surface(samples::make_creature("horse", 6000))), edge_length, 0);
+  const Made made(plain(samples::welded_surface(hf_test::creature("horse", 6000))), edge_length, 0);
   Memory& memory = *made.core->memory;
   QuadMesh mesh = made.result.mesh;
   RelaxOptions relax;
@@ -195,7 +196,7 @@ TEST(QuadFaults, AreTurnedCornersAndQuadsThatRunThroughOthersNearThePlace) {
 
 // What is left out because it was found near changes nothing, and neither does the number of threads.
 TEST(QuadDistance, IsTheSameWithFacesKnownAndFromAnyNumberOfThreads) {
-  const Made made(plain(samples::cactus(4000)), 0.03, 0);
+  const Made made(plain(hf_test::cactus(4000)), 0.03, 0);
   Memory& memory = *made.core->memory;
   JobRunner four(4);
   const QuadDistance alone(made.surface, 0.01, memory), shared(made.surface, 0.01, memory, &four);

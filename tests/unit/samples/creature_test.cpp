@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mesh_checks.h"
+#include "support/creature.h"
 
 namespace {
 
@@ -336,6 +337,20 @@ TEST(Creature, BadRequestsAreRefusedByName) {
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("unicorn"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("horse"), std::string::npos);
+  }
+}
+
+TEST(KeptCreature, HasTheBitsOfTheOneThatWasMade) {
+  const Creature &made = creature("horse", 1000), kept = hf_test::read_back(made);
+  EXPECT_EQ(samples::creature_hash(kept), samples::creature_hash(made));
+  EXPECT_EQ(kept.name, made.name);
+  EXPECT_EQ(kept.chart_count, made.chart_count);
+  EXPECT_EQ(kept.surface_vertex_count, made.surface_vertex_count);
+  EXPECT_EQ(kept.base_color, made.base_color);
+  for (size_t j = 0; j < made.skeleton.size(); ++j) EXPECT_EQ(kept.skeleton.at(j).parent, made.skeleton[j].parent);
+  for (size_t i = 0; i < made.clips.size(); ++i) {
+    EXPECT_EQ(kept.clips.at(i).name, made.clips[i].name);
+    EXPECT_EQ(kept.clips[i].speed, made.clips[i].speed);
   }
 }
 

@@ -14,8 +14,9 @@
 #include "common/limits.h"
 #include "common/mesh_file.h"
 #include "gltf/gltf_read.h"
-#include "unit/gltf/gltf_support.h"
+#include "support/creature.h"
 #include "support/program_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 
@@ -78,7 +79,7 @@ std::string modules() {
 TEST(FieldProgram, output_follows_links_and_leaves_devices_alone) {
   TemporaryFolder folder;
   const fs::path mesh_file = folder.path / "cactus.obj", out = folder.path / "field.txt";
-  write_mesh_file(surface(cactus(600)), mesh_file);
+  write_mesh_file(surface(hf_test::cactus(600)), mesh_file);
   const auto written = [&](const std::string& name) {
     return run(hf_test::quoted(mesh_file) + " --site 0=0 --site 9=1 --out " + hf_test::quoted(folder.path / name));
   };
@@ -103,7 +104,7 @@ TEST(FieldProgram, writes_every_kind_of_field_as_text_glb_and_picture) {
   TemporaryFolder folder;
   const fs::path mesh_file = folder.path / "cactus.obj", glbs = folder.path / "glb";
   fs::create_directory(glbs);
-  const SurfaceMesh mesh = surface(cactus(2500));
+  const SurfaceMesh mesh = surface(hf_test::cactus(2500));
   write_mesh_file(mesh, mesh_file);
   const struct {
     const char *kind, *more;

@@ -14,9 +14,10 @@
 #include "gltf/flat_mesh.h"
 #include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
-#include "unit/gltf/gltf_support.h"
 #include "quads/surface_distance.h"
+#include "support/creature.h"
 #include "support/program_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 
@@ -91,7 +92,7 @@ TEST(QuadsProgram, SaysWhatItDoesNotMeasure) {
 
 TEST(QuadsProgram, WritesQuadsAndSaysWhatTheyAreWorth) {
   const TemporaryFolder folder;
-  const ShapeMesh cactus = samples::cactus(1500);
+  const ShapeMesh cactus = hf_test::cactus(1500);
   SurfaceMesh mesh;
   for (size_t i = 0; i < cactus.positions.size(); i += 3)
     mesh.positions.push_back({cactus.positions[i], cactus.positions[i + 1], cactus.positions[i + 2]});
@@ -315,7 +316,7 @@ struct Remade {
 
 // A horse as quads: it walks as before, no seam of its texture opens, and no quad is painted across a seam.
 TEST(QuadsProgram, AModelKeepsItsMotionAndLook) {
-  const Remade horse(to_model(make_creature("horse", 6000)), 2500);
+  const Remade horse(to_model(hf_test::creature("horse", 6000)), 2500);
   ASSERT_EQ(horse.after.skins.size(), 1u) << horse.text;
   EXPECT_EQ(horse.after.skins[0].joints, horse.before.skins[0].joints);
   ASSERT_EQ(horse.after.animations.size(), horse.before.animations.size());
