@@ -138,7 +138,8 @@ typedef struct hf_array_out {
 
 /* HF_ARRAY and HF_ARRAY_OUT view packed rows: desc.positions = HF_ARRAY(xyz, vertex_count). They take the type from the
  * pointer: float, double, uint32_t or uint16_t. With float rows[100][3], pass a pointer to the first number: rows[0].
- * If rows are not packed, set the stride afterwards. */
+ * If rows are not packed, set the stride afterwards. In C you can write &HF_ARRAY_OUT(x, n) in a call. C++ has no
+ * address of a temporary: name the array first. */
 #define HF_TYPE_OF(numbers)                   \
   (sizeof(*(numbers)) == 4   ? HF_TYPE_PLAIN  \
    : sizeof(*(numbers)) == 8 ? HF_TYPE_DOUBLE \
@@ -188,7 +189,8 @@ typedef struct hf_allocator {
 } hf_allocator;
 
 /* Your job system. run must call job(job_data, i) for i = 0 .. count - 1, on any threads and in any order. It returns
- * when all these calls have returned. If run is NULL, the library makes thread_count - 1 threads of its own. The
+ * when all these calls have returned. A surface with thread_count 0 or 1 gives it no jobs, because calls are divided
+ * into about thread_count jobs. If run is NULL, the library makes thread_count - 1 threads of its own. The
  * library itself does the jobs that run leaves out, and does a repeated job only once. The function run may throw a C++
  * exception after all started jobs have returned; the API call then returns HF_ERROR_INTERNAL. */
 typedef struct hf_job_runner {
@@ -197,7 +199,7 @@ typedef struct hf_job_runner {
 } hf_job_runner;
 
 /* Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one object
- * for one call at a time. */
+ * for one call at a time. If a cancel may come after the end of the call, make a new object for the next call. */
 typedef struct hf_progress_object* hf_progress;
 
 /* Creates a progress object. Sets *out_progress to NULL first. Thread safety: any thread. Since 0.1. */

@@ -347,7 +347,7 @@ struct HandlesOptions {
   uint32_t layer = 0;
   // 1: handles of layer 0 start on the posed surface, not at rest; see below
   bool in_place = false;
-  // 1: you give the places of the handles only; see Pose::set_free_rotations
+  // 1: you give the places alone of all these handles; Pose::set_free_rotations frees single ones
   bool free_rotation = false;
   // none, or an object to poll and cancel through
   const Progress* progress = nullptr;
@@ -638,8 +638,9 @@ struct Joints {
   std::vector<double> heads{};
   // `[joint_count x 3]`, or none: heads are joints, and the library finds the tails
   std::vector<double> tails{};
-  // `[joint_count x 3]` with tails none: where each joint points, any length, 0 for unknown; or none. A joint reaches
-  // to the child that lies there, or to the end of the skin. A child that does not deform says where a last joint ends
+  // `[joint_count x 3]` with tails none: where each joint points, any length, a zero vector for unknown; or none.
+  // A joint reaches to the child that lies there, or to the end of the skin. A      child that does      not deform
+  // says where a last joint ends
   std::vector<double> axes{};
   // `[joint_count]` number of the parent, HF_NO_INDEX for a root; none: all are roots
   std::vector<uint32_t> parents{};
@@ -905,7 +906,7 @@ struct WeightsOut {
 };
 
 // Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one object
-// for one call at a time.
+// for one call at a time. If a cancel may come after the end of the call, make a new object for the next call.
 class Progress {
  public:
   // Creates a progress object.
@@ -957,8 +958,9 @@ class Surface {
   //
   // A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
   // doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
-  // hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices
-  // of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+  // hair or a cape, is one sheet with a border. Results give the index of the first of doubled triangles; calls take
+  // the index of any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits
+  // both sides.
   //
   // positions: `[vertex_count x 3]` of float or double, any unit, any offset
   // triangles: `[triangle_count x 3]` of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -1139,9 +1141,10 @@ class Surface {
   // surface, and with HF_OPERATOR_CLAMPED, make the whole operator and its factor anew. Take links out before, and put
   // them in again after it.
   //
-  // Solver::move_to and Pose::move_to take sites and handles along. Soft sites keep the unit of their stiffness while
-  // links and triangles stay; others change it as they do for Surface::relink. Surface::save is refused: save the
-  // factor of the surface before its edits. Memory limits hold for both surfaces together.
+  // Solver::move_to takes sites along, and Pose::move_to takes handles along. After a patch or a cut make a new pose:
+  // Pose::move_to refuses other triangles. Soft sites keep the unit of their stiffness while links and triangles stay;
+  // others change it as they do for Surface::relink. Surface::save is refused: save the factor of the surface before
+  // its edits. Memory limits hold for both surfaces together.
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_FOUND, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE,
@@ -1156,7 +1159,8 @@ class Surface {
     return made;
   }
 
-  // Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts.
+  // Writes the corners that all cuts gave other vertices since the surface was made, in the order of the cuts. A second
+  // cut adds its corners behind the corners of the first cut: go on from the last count.
   std::vector<hf_cut_corner> cuts() const {
     Call c(counts_);
     uint32_t count = 0;
@@ -1413,7 +1417,7 @@ class Surface {
   // vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, a role and a
   // side. If its roles are known, feet and the trunk are pinned. Hands, heads, tails and pieces that hang on them, such
   // as a sword, are not. Each head, hand, foot, tail, ear and wing gets at most one proposal. A part that no joint of
-  // the skin moves, such as the box of a control, gets none.
+  // the skin moves, such as the box that an animator drags, gets none.
   //
   // regions: `[vertex_count]`: position in the list of the proposal whose region has the vertex; HF_NO_INDEX for a
   // vertex of no region
@@ -2266,7 +2270,7 @@ class Pose {
   // surface: any number of calls of Surface::edit or Surface::relink make it from the pose's surface, or the pose's
   // surface from it.
   //
-  // Fails with HF_ERROR_CONFLICT.
+  // Fails with HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.
   void move_to(const Surface& surface) {
     Call c(counts_);
     c.parent("surface", surface.known_counts());
@@ -2420,7 +2424,8 @@ class Pose {
   //
   // handles: `[handle_count]`.
   // refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. With 1,
-  // bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
+  // bends stay smooth. With 8 and more, most edges keep their lengths to a few per cent, and the limb bends like
+  // two bones. Edges beside the handle can change more.
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
   void set_limb_refine(const std::vector<uint32_t>& handles, int32_t refine = 0) {
@@ -3553,8 +3558,9 @@ class Transfer {
   // much on the two surfaces (hf_pair_info), it takes the direction of the source's limb instead, by a share.
   //
   // The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
-  // Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result
-  // changes as little as the source does: a source that stands still except for noise gives a target that stands still.
+  // Removed pairs and earlier frames have no effect, so a scrubbed timeline and a played one give the same frames, bit
+  // for bit. The result changes as little as the source does: a source that stands still except for noise gives a
+  // target that stands still.
   //
   // The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
   // path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled

@@ -48,7 +48,8 @@ HF_API hf_result hf_pose_clone(hf_pose pose, hf_pose* out_pose);
  * nothing, also where handles of free rotation could rest in two poses. With restart the frame equals the frame of a
  * new pose on `surface`, to 1e-6 of the box. surface: any number of calls of hf_surface_edit or hf_surface_relink make
  * it from the pose's surface, or the pose's surface from it. Cost: as adding all handles at once, without elimination
- * paths. Errors: HF_ERROR_CONFLICT (the surfaces have no common origin). Thread safety: changes `pose`, reads
+ * paths. Errors: HF_ERROR_CONFLICT (the surfaces have no common origin), HF_ERROR_UNSUPPORTED (other triangles: make a
+ * new pose with the handles of this one). Thread safety: changes `pose`, reads
  * `surface`. Since 0.1. */
 HF_API hf_result hf_pose_move_to(hf_pose pose, hf_surface surface);
 
@@ -86,7 +87,8 @@ typedef struct hf_handles_desc {
                             A radius below 1 % of the box makes regions of 2 vertices or more */
   uint32_t layer;        /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
   int32_t in_place;      /* 1: handles of layer 0 start on the posed surface, not at rest; see below */
-  int32_t free_rotation; /* 1: you give the places of the handles only; see hf_pose_set_free_rotations */
+  int32_t free_rotation; /* 1: you give the places alone of all these handles; hf_pose_set_free_rotations frees single
+                            ones */
   uint32_t reserved;     /* 0 */
   hf_progress progress;  /* NULL, or an object to poll and cancel through */
 } hf_handles_desc;
@@ -175,7 +177,8 @@ HF_API hf_result hf_pose_set_following(hf_pose pose, uint32_t handle_count, cons
 
 /* Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. handles:
  * uint32_t[handle_count]. refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a
- * new handle. With 1, bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
+ * new handle. With 1, bends stay smooth. With 8 and more, most edges keep their lengths to a
+ * few per cent, and the limb bends like two bones. Edges beside the handle can change more.
  *
  * The limb is the part of the surface where the field of the handle falls a long way over little area. It ends at the
  * trunk, or at the next handle on the limb. The steps move the limb alone. All other vertices keep their bits, so the
@@ -440,7 +443,7 @@ enum hf_handle_reason {
   HF_HANDLE_REASON_JOINT = 3, /* a joint of the given skeleton: an end, or where it branches. Or a head, hand or foot
                                  that is no tip of the surface */
   /* The trunk of the largest component: the chest of a biped; pinned, inside the surface. With a skeleton of an upright
-   * body all that chest and shoulders move is held, up to the neck */
+   * body, the vertices of chest and shoulders are held, up to the neck */
   HF_HANDLE_REASON_MIDDLE = 4
 };
 
@@ -489,11 +492,11 @@ typedef struct hf_handle_proposal {
  *
  * A skeleton gives each proposal the joint that moves it, a role and a side. If its roles are known, feet and the trunk
  * are pinned. Hands, heads, tails and pieces that hang on them, such as a sword, are not. Each head, hand, foot, tail,
- * ear and wing gets at most one proposal. A part that no joint of the skin moves, such as the box of a control, gets
- * none. Cost: as hf_surface_find_extremities, and some passes over the mesh. Errors: HF_ERROR_INVALID_ARGUMENT
- * (least_length_share, limit, joints without parents, joints and a skeleton, a skin of another mesh),
- * HF_ERROR_NON_FINITE (up; index = joint), HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread
- * safety: reads `surface` and the skeleton. Since 0.1. */
+ * ear and wing gets at most one proposal. A part that no joint of the skin moves, such as the box that an animator
+ * drags, gets none. Cost: as hf_surface_find_extremities, and some passes over the mesh. Errors:
+ * HF_ERROR_INVALID_ARGUMENT (least_length_share, limit, joints without parents, joints and a skeleton, a skin of
+ * another mesh), HF_ERROR_NON_FINITE (up; index = joint), HF_ERROR_OUT_OF_RANGE (a parent; index = joint),
+ * HF_ERROR_CANCELLED. Thread safety: reads `surface` and the skeleton. Since 0.1. */
 HF_API hf_result hf_surface_propose_handles(hf_surface surface, const hf_handle_proposals_desc* desc, uint32_t capacity,
                                             hf_handle_proposal* out_proposals, uint32_t* out_count);
 

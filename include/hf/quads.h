@@ -83,8 +83,8 @@ typedef struct hf_quads_info {
  *
  * Errors: HF_ERROR_INVALID_ARGUMENT (face_count, edge_length, crease_angle, relax_count, an array without its count, an
  * isolated vertex, symmetry_plane without a normal; index = crease, that is no edge of the surface; index = guide, that
- * is 0, is normal to the surface or has a weight outside 0 to 1; index = irregular vertex, of other than 3 or 5 quads, or
- * where the surface has no normal), HF_ERROR_NON_FINITE (edge_length, crease_angle, symmetry_plane, index = guide or
+ * is 0, is normal to the surface or has a weight outside 0 to 1; index = irregular vertex, of other than 3 or 5 quads,
+ * or where the surface has no normal), HF_ERROR_NON_FINITE (edge_length, crease_angle, symmetry_plane, index = guide or
  * irregular vertex), HF_ERROR_OUT_OF_RANGE (index = crease or guide), HF_ERROR_UNSUPPORTED (more than 5 % of the edges
  * have three triangles or cannot be oriented, index = a vertex; a surface that symmetry_plane does not mirror, index =
  * the vertex that is off most; no triangle on the side of the normal), HF_ERROR_TOO_LARGE (more than a million quads of

@@ -166,8 +166,8 @@ typedef struct hf_surface_desc {
  *
  * A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are doubled
  * if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a
- * cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
- * second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+ * cape, is one sheet with a border. Results give the index of the first of doubled triangles; calls take the index of
+ * any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
  *
  * out_surface: receives NULL at the start of the call and the new surface on success. Cost: about 2 us per vertex for
  * 300,000 vertices, one thread. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY (no vertex or no triangle),
@@ -427,7 +427,8 @@ typedef struct hf_surface_edit_desc {
  * quarter of the surface, and with HF_OPERATOR_CLAMPED, make the whole operator and its factor anew. Take links out
  * before, and put them in again after it.
  *
- * hf_solver_move_to and hf_pose_move_to take sites and handles along. Soft sites keep the unit of their stiffness while
+ * hf_solver_move_to takes sites along, and hf_pose_move_to takes handles along. After a patch or a cut make a new pose:
+ * hf_pose_move_to refuses other triangles. Soft sites keep the unit of their stiffness while
  * links and triangles stay; others change it as they do for hf_surface_relink. hf_surface_save is refused: save the
  * factor of the surface before its edits. Memory limits hold for both surfaces together. out_surface: as in
  * hf_surface_create. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a stiffness out of
@@ -442,8 +443,9 @@ typedef struct hf_surface_edit_desc {
  * HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_edit(hf_surface surface, const hf_surface_edit_desc* desc, hf_surface* out_surface);
 
-/* A corner of a triangle that a cut gave another vertex. Write it into your index array, and give the new vertex what
- * the copied one has: indices[3 * triangle + corner] = vertex. */
+/* A corner of a triangle that a cut gave another vertex. Give the new vertex what the old one has, and write it into
+ * your index array: indices[3 * triangle + corner] = vertex. The old one is what your index array has there. At a seam
+ * the copies of a vertex share one new vertex, so what differs between them, such as a UV, belongs to the corner. */
 typedef struct hf_cut_corner {
   uint32_t triangle; /* of your mesh */
   uint32_t corner;   /* 0, 1 or 2 */
@@ -451,9 +453,9 @@ typedef struct hf_cut_corner {
   uint32_t copied;   /* the vertex that it copies, the first of welded copies */
 } hf_cut_corner;
 
-/* Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts. out_cuts:
- * NULL, or hf_cut_corner[capacity]. out_count: NULL, or receives their number. Thread safety: reads `surface`. Since
- * 0.1. */
+/* Writes the corners that all cuts gave other vertices since the surface was made, in the order of the cuts. A second
+ * cut adds its corners behind the corners of the first cut: go on from the last count. out_cuts: NULL, or
+ * hf_cut_corner[capacity]. out_count: NULL, or receives their number. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_cuts(hf_surface surface, uint32_t capacity, hf_cut_corner* out_cuts,
                                      uint32_t* out_count);
 

@@ -201,8 +201,9 @@ typedef struct hf_transfer_frame {
  * much on the two surfaces (hf_pair_info), it takes the direction of the source's limb instead, by a share.
  *
  * The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone. Removed
- * pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result changes as
- * little as the source does: a source that stands still except for noise gives a target that stands still.
+ * pairs and earlier frames have no effect, so a scrubbed timeline and a played one give the same frames, bit for bit.
+ * The result changes as little as the source does: a source that stands still except for noise gives a target that
+ * stands still.
  *
  * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
  * path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled

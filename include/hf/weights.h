@@ -22,12 +22,12 @@ typedef struct hf_weights_object* hf_weights;
 /* The joints of a skeleton, in the unit and frame of the mesh. */
 typedef struct hf_joints_desc {
   uint32_t struct_size;
-  uint32_t joint_count; /* 1 to 1,048,576 */
-  const double* heads;  /* [joint_count][3] */
-  const double* tails;  /* [joint_count][3], or NULL: heads are joints, and the library finds the tails */
-  const double* axes; /* [joint_count][3] with tails NULL: where each joint points, any length, 0 for unknown; or NULL.
-                         A joint reaches to the child that lies there, or to the end of the skin. A child that does
-                         not deform says where a last joint ends */
+  uint32_t joint_count;    /* 1 to 1,048,576 */
+  const double* heads;     /* [joint_count][3] */
+  const double* tails;     /* [joint_count][3], or NULL: heads are joints, and the library finds the tails */
+  const double* axes;      /* [joint_count][3] with tails NULL: where each joint points, any length, a zero vector for
+                              unknown; or NULL.      A joint reaches to the child that lies there, or to the end of the skin.
+                              A      child that does      not deform says where a last joint ends */
   const uint32_t* parents; /* [joint_count] number of the parent, HF_NO_INDEX for a root; NULL: all are roots */
   const int32_t* deforms;  /* [joint_count] 1: the joint gets weights; NULL: all do */
   const uint32_t* sources; /* [joint_count] for hf_weights_set_joints: the number that the joint had before, HF_NO_INDEX
@@ -159,8 +159,8 @@ typedef struct hf_weights_statistics {
   uint32_t struct_size;
   uint32_t nearest_piece_count; /* pieces without information */
   uint32_t rigid_piece_count;   /* small ones of them */
-  int32_t blind;                /* 1: some piece has none of its nearest joints in sight and uses them all the same */
-  uint32_t no_length_count;     /* joints by HF_JOINT_* */
+  int32_t blind;            /* 1: none of the nearest joints of some piece is in its sight; it uses them nevertheless */
+  uint32_t no_length_count; /* joints by HF_JOINT_* */
   uint32_t coincident_count;
   uint32_t informs_none_count;
   uint32_t outside_count;

@@ -138,7 +138,7 @@ namespace Hf
         /// the surface</summary>
         Joint = Constants.HF_HANDLE_REASON_JOINT,
         /// <summary>The trunk of the largest component: the chest of a biped; pinned, inside the surface. With a skeleton of
-        /// an upright body all that chest and shoulders move is held, up to the neck</summary>
+        /// an upright body, the vertices of chest and shoulders are held, up to the neck</summary>
         Middle = Constants.HF_HANDLE_REASON_MIDDLE,
     }
 
@@ -647,8 +647,10 @@ namespace Hf
         }
     }
 
-    /// <summary>A corner of a triangle that a cut gave another vertex. Write it into your index array, and give the new
-    /// vertex what the copied one has: indices[3 * triangle + corner] = vertex.</summary>
+    /// <summary>A corner of a triangle that a cut gave another vertex. Give the new vertex what the old one has, and write
+    /// it into your index array: indices[3 * triangle + corner] = vertex. The old one is what your index array has
+    /// there. At a seam the copies of a vertex share one new vertex, so what differs between them, such as a UV,
+    /// belongs to the corner.</summary>
     public sealed unsafe partial class CutCorner
     {
         /// <summary>of your mesh</summary>
@@ -1694,7 +1696,7 @@ namespace Hf
         public uint NearestPieceCount;
         /// <summary>small ones of them</summary>
         public uint RigidPieceCount;
-        /// <summary>1: some piece has none of its nearest joints in sight and uses them all the same</summary>
+        /// <summary>1: none of the nearest joints of some piece is in its sight; it uses them nevertheless</summary>
         public bool Blind;
         /// <summary>joints by JointFlag</summary>
         public uint NoLengthCount;
@@ -2292,7 +2294,8 @@ namespace Hf
     }
 
     /// <summary>Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one
-    /// object for one call at a time.
+    /// object for one call at a time. If a cancel may come after the end of the call, make a new object for the
+    /// next call.
     ///
     /// Creates a progress object.</summary>
     public sealed unsafe class Progress : HfObject
@@ -2346,9 +2349,9 @@ namespace Hf
     ///
     /// A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
     /// doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a
-    /// leaf, hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name
-    /// any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both
-    /// sides.
+    /// leaf, hair or a cape, is one sheet with a border. Results give the index of the first of doubled triangles;
+    /// calls take the index of any. Vertices of the second side alone get opposite normals from poses, and a ray
+    /// with front_only hits both sides.
     ///
     /// positions: [vertexCount x 3] of float or double, any unit, any offset
     /// triangles: [triangleCount x 3] of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -2380,9 +2383,9 @@ namespace Hf
         ///
         /// A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces
         /// are doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such
-        /// as a leaf, hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you
-        /// can name any. Vertices of the second side alone get opposite normals from poses, and a ray with
-        /// front_only hits both sides.
+        /// as a leaf, hair or a cape, is one sheet with a border. Results give the index of the first of doubled
+        /// triangles; calls take the index of any. Vertices of the second side alone get opposite normals from
+        /// poses, and a ray with front_only hits both sides.
         ///
         /// positions: [vertexCount x 3] of float or double, any unit, any offset
         /// triangles: [triangleCount x 3] of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -2724,9 +2727,10 @@ namespace Hf
         /// surface. Patches over a quarter of the surface, and with Operator.Clamped, make the whole operator and
         /// its factor anew. Take links out before, and put them in again after it.
         ///
-        /// Solver.MoveTo and Pose.MoveTo take sites and handles along. Soft sites keep the unit of their stiffness
-        /// while links and triangles stay; others change it as they do for Surface.Relink. Surface.Save is refused:
-        /// save the factor of the surface before its edits. Memory limits hold for both surfaces together.
+        /// Solver.MoveTo takes sites along, and Pose.MoveTo takes handles along. After a patch or a cut make a new
+        /// pose: Pose.MoveTo refuses other triangles. Soft sites keep the unit of their stiffness while links and
+        /// triangles stay; others change it as they do for Surface.Relink. Surface.Save is refused: save the factor
+        /// of the surface before its edits. Memory limits hold for both surfaces together.
         ///
         /// vertices: [vertexCount] as given; other vertices keep their stiffness. null: all vertices in order
         /// stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. null: no
@@ -2766,7 +2770,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts.</summary>
+        /// <summary>Writes the corners that all cuts gave other vertices since the surface was made, in the order of the
+        /// cuts. A second cut adds its corners behind the corners of the first cut: go on from the last count.</summary>
         public CutCorner[] Cuts()
         {
             using (var c = new Call(this))
@@ -3151,8 +3156,8 @@ namespace Hf
         /// on the order of the vertices. They follow translation and scale. A skeleton gives each proposal the
         /// joint that moves it, a role and a side. If its roles are known, feet and the trunk are pinned. Hands,
         /// heads, tails and pieces that hang on them, such as a sword, are not. Each head, hand, foot, tail, ear
-        /// and wing gets at most one proposal. A part that no joint of the skin moves, such as the box of a
-        /// control, gets none.
+        /// and wing gets at most one proposal. A part that no joint of the skin moves, such as the box that an
+        /// animator drags, gets none.
         ///
         /// joints: [jointCount x 3] their places at rest, in the unit and frame of the mesh
         /// parents: [jointCount] position of each joint's parent in the list; uint.MaxValue for a root
@@ -4437,7 +4442,7 @@ namespace Hf
         /// surface: any number of calls of Surface.Edit or Surface.Relink make it from the pose's surface, or the
         ///     pose's surface from it.
         ///
-        /// Throws HF_ERROR_CONFLICT.</summary>
+        /// Throws HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.</summary>
         public void MoveTo(Surface surface)
         {
             using (var c = new Call(this))
@@ -4480,7 +4485,7 @@ namespace Hf
         ///     radius below 1 % of the box makes regions of 2 vertices or more
         /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
         /// inPlace: 1: handles of layer 0 start on the posed surface, not at rest; see below
-        /// freeRotation: 1: you give the places of the handles only; see Pose.SetFreeRotations
+        /// freeRotation: 1: you give the places alone of all these handles; Pose.SetFreeRotations frees single ones
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
@@ -4653,7 +4658,8 @@ namespace Hf
         ///
         /// handles: [handleCount].
         /// refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle.
-        ///     With 1, bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
+        ///     With 1, bends stay smooth. With 8 and more, most edges keep their lengths to a few per cent, and the
+        ///     limb bends like two bones. Edges beside the handle can change more.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
         public void SetLimbRefine(uint[] handles, int refine = 0)
@@ -6479,9 +6485,9 @@ namespace Hf
         /// instead, by a share.
         ///
         /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc
-        /// alone. Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a
-        /// played one. The result changes as little as the source does: a source that stands still except for noise
-        /// gives a target that stands still.
+        /// alone. Removed pairs and earlier frames have no effect, so a scrubbed timeline and a played one give the
+        /// same frames, bit for bit. The result changes as little as the source does: a source that stands still
+        /// except for noise gives a target that stands still.
         ///
         /// The ground counts too if the mode is TransferMode.Fields and some pairs are anchors (their target region
         /// follows the path of the source's region). While a foot of the source stands on the ground, the target's
@@ -6681,9 +6687,9 @@ namespace Hf
     ///
     /// heads: [jointCount x 3]
     /// tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
-    /// axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A joint
-    ///     reaches to the child that lies there, or to the end of the skin. A child that does not deform says where
-    ///     a last joint ends
+    /// axes: [jointCount x 3] with tails null: where each joint points, any length, a zero vector for unknown; or
+    ///     null.      A joint reaches to the child that lies there, or to the end of the skin. A      child that
+    ///     does      not deform says where a last joint ends
     /// parents: [jointCount] number of the parent, uint.MaxValue for a root; null: all are roots
     /// deforms: [jointCount] 1: the joint gets weights; null: all do
     /// sources: [jointCount] for Weights.SetJoints: the number that the joint had before, uint.MaxValue for a new
@@ -6699,9 +6705,9 @@ namespace Hf
         ///
         /// heads: [jointCount x 3]
         /// tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
-        /// axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A
-        ///     joint reaches to the child that lies there, or to the end of the skin. A child that does not deform
-        ///     says where a last joint ends
+        /// axes: [jointCount x 3] with tails null: where each joint points, any length, a zero vector for unknown;
+        ///     or null.      A joint reaches to the child that lies there, or to the end of the skin. A      child
+        ///     that does      not deform says where a last joint ends
         /// parents: [jointCount] number of the parent, uint.MaxValue for a root; null: all are roots
         /// deforms: [jointCount] 1: the joint gets weights; null: all do
         /// sources: [jointCount] for Weights.SetJoints: the number that the joint had before, uint.MaxValue for a
@@ -6755,9 +6761,9 @@ namespace Hf
         ///
         /// heads: [jointCount x 3]
         /// tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
-        /// axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A
-        ///     joint reaches to the child that lies there, or to the end of the skin. A child that does not deform
-        ///     says where a last joint ends
+        /// axes: [jointCount x 3] with tails null: where each joint points, any length, a zero vector for unknown;
+        ///     or null.      A joint reaches to the child that lies there, or to the end of the skin. A      child
+        ///     that does      not deform says where a last joint ends
         /// parents: [jointCount] number of the parent, uint.MaxValue for a root; null: all are roots
         /// deforms: [jointCount] 1: the joint gets weights; null: all do
         /// sources: [jointCount] for Weights.SetJoints: the number that the joint had before, uint.MaxValue for a

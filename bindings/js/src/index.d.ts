@@ -186,8 +186,10 @@ export interface GapsInfo {
 }
 
 /**
- * A corner of a triangle that a cut gave another vertex. Write it into your index array, and give the new vertex
- * what the copied one has: indices[3 * triangle + corner] = vertex.
+ * A corner of a triangle that a cut gave another vertex. Give the new vertex what the old one has, and write it
+ * into your index array: indices[3 * triangle + corner] = vertex. The old one is what your index array has there.
+ * At a seam the copies of a vertex share one new vertex, so what differs between them, such as a UV, belongs to
+ * the corner.
  */
 export interface CutCorner {
   /** of your mesh */
@@ -1044,7 +1046,7 @@ export interface WeightsStatistics {
   nearestPieceCount: number;
   /** small ones of them */
   rigidPieceCount: number;
-  /** 1: some piece has none of its nearest joints in sight and uses them all the same */
+  /** 1: none of the nearest joints of some piece is in its sight; it uses them nevertheless */
   blind: number;
   /** joints by HF_JOINT_* */
   noLengthCount: number;
@@ -1263,7 +1265,8 @@ export interface SkinDescGiven {
 
 /**
  * Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one
- * object for one call at a time.
+ * object for one call at a time. If a cancel may come after the end of the call, make a new object for the next
+ * call.
  *
  * Creates a progress object.
  */
@@ -1292,8 +1295,9 @@ export interface ProgressClass {
  *
  * A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
  * doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
- * hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
- * Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+ * hair or a cape, is one sheet with a border. Results give the index of the first of doubled triangles; calls take
+ * the index of any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only
+ * hits both sides.
  *
  * positions: [vertexCount x 3] of float or double, any unit, any offset
  * triangles: [triangleCount x 3] of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -1398,9 +1402,10 @@ export interface Surface extends Handle {
    * over a quarter of the surface, and with HF_OPERATOR_CLAMPED, make the whole operator and its factor anew. Take
    * links out before, and put them in again after it.
    *
-   * Solver.moveTo and Pose.moveTo take sites and handles along. Soft sites keep the unit of their stiffness while
-   * links and triangles stay; others change it as they do for Surface.relink. Surface.save is refused: save the
-   * factor of the surface before its edits. Memory limits hold for both surfaces together.
+   * Solver.moveTo takes sites along, and Pose.moveTo takes handles along. After a patch or a cut make a new pose:
+   * Pose.moveTo refuses other triangles. Soft sites keep the unit of their stiffness while links and triangles
+   * stay; others change it as they do for Surface.relink. Surface.save is refused: save the factor of the surface
+   * before its edits. Memory limits hold for both surfaces together.
    *
    * vertices: [vertexCount] as given; other vertices keep their stiffness. null: all vertices in order
    * stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. null: no stiffness
@@ -1415,7 +1420,10 @@ export interface Surface extends Handle {
    * HF_ERROR_UNSUPPORTED.
    */
   edit(options?: { vertices?: Rows | null; stiffness?: Rows | null; links?: Rows | null; removedLinks?: Rows | null; patch?: PatchDescGiven | Rows | null; progress?: Progress | null }): Surface;
-  /** Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts. */
+  /**
+   * Writes the corners that all cuts gave other vertices since the surface was made, in the order of the cuts. A
+   * second cut adds its corners behind the corners of the first cut: go on from the last count.
+   */
   cuts(): CutCorner[];
   /** Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices. */
   stiffness(): Float64Array;
@@ -1549,7 +1557,7 @@ export interface Surface extends Handle {
    * the vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, a
    * role and a side. If its roles are known, feet and the trunk are pinned. Hands, heads, tails and pieces that
    * hang on them, such as a sword, are not. Each head, hand, foot, tail, ear and wing gets at most one proposal. A
-   * part that no joint of the skin moves, such as the box of a control, gets none.
+   * part that no joint of the skin moves, such as the box that an animator drags, gets none.
    *
    * joints: [jointCount x 3] their places at rest, in the unit and frame of the mesh
    * parents: [jointCount] position of each joint's parent in the list; constants.HF_NO_INDEX for a root
@@ -2017,7 +2025,7 @@ export interface Pose extends Recorded {
    * surface: any number of calls of Surface.edit or Surface.relink make it from the pose's surface, or the pose's
    *     surface from it.
    *
-   * Throws HF_ERROR_CONFLICT.
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.
    */
   moveTo(surface: Surface): void;
   /** Writes the options of a pose. */
@@ -2040,7 +2048,7 @@ export interface Pose extends Recorded {
    *     below 1 % of the box makes regions of 2 vertices or more
    * layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
    * inPlace: 1: handles of layer 0 start on the posed surface, not at rest; see below
-   * freeRotation: 1: you give the places of the handles only; see Pose.setFreeRotations
+   * freeRotation: 1: you give the places alone of all these handles; Pose.setFreeRotations frees single ones
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
@@ -2138,7 +2146,8 @@ export interface Pose extends Recorded {
    *
    * handles: [handleCount].
    * refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. With
-   *     1, bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
+   *     1, bends stay smooth. With 8 and more, most edges keep their lengths to a few per cent, and the limb bends
+   *     like two bones. Edges beside the handle can change more.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
    */
@@ -2712,9 +2721,9 @@ export interface Transfer extends Handle {
    * differ much on the two surfaces (PairInfo), it takes the direction of the source's limb instead, by a share.
    *
    * The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
-   * Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The
-   * result changes as little as the source does: a source that stands still except for noise gives a target that
-   * stands still.
+   * Removed pairs and earlier frames have no effect, so a scrubbed timeline and a played one give the same frames,
+   * bit for bit. The result changes as little as the source does: a source that stands still except for noise
+   * gives a target that stands still.
    *
    * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region
    * follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
@@ -2768,9 +2777,9 @@ export interface TransferClass {
  *
  * heads: [jointCount x 3]
  * tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
- * axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A joint
- *     reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a
- *     last joint ends
+ * axes: [jointCount x 3] with tails null: where each joint points, any length, a zero vector for unknown; or null.
+ *     A joint reaches to the child that lies there, or to the end of the skin. A      child that does      not
+ *     deform says where a last joint ends
  * parents: [jointCount] number of the parent, constants.HF_NO_INDEX for a root; null: all are roots
  * deforms: [jointCount] 1: the joint gets weights; null: all do
  * sources: [jointCount] for Weights.setJoints: the number that the joint had before, constants.HF_NO_INDEX for a
@@ -2791,9 +2800,9 @@ export interface Weights extends Recorded {
    *
    * heads: [jointCount x 3]
    * tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
-   * axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A joint
-   *     reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a
-   *     last joint ends
+   * axes: [jointCount x 3] with tails null: where each joint points, any length, a zero vector for unknown; or
+   *     null.      A joint reaches to the child that lies there, or to the end of the skin. A      child that does
+   *     not deform says where a last joint ends
    * parents: [jointCount] number of the parent, constants.HF_NO_INDEX for a root; null: all are roots
    * deforms: [jointCount] 1: the joint gets weights; null: all do
    * sources: [jointCount] for Weights.setJoints: the number that the joint had before, constants.HF_NO_INDEX for a

@@ -214,7 +214,7 @@ class HandleReason(IntEnum):
     """
     MIDDLE = _raw.HF_HANDLE_REASON_MIDDLE
     """The trunk of the largest component: the chest of a biped; pinned, inside the surface. With a skeleton of an
-    upright body all that chest and shoulders move is held, up to the neck
+    upright body, the vertices of chest and shoulders are held, up to the neck
     """
 
 
@@ -1157,7 +1157,7 @@ def _weights_mirror_desc(c: Call, prefix: str = '', *, heads: Optional[ArrayLike
 
 class Progress(Object):
     """Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one object
-    for one call at a time.
+    for one call at a time. If a cancel may come after the end of the call, make a new object for the next call.
 
     Creates a progress object.
     """
@@ -1201,8 +1201,9 @@ class Surface(Object):
 
     A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
     doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
-    hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
-    Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+    hair or a cape, is one sheet with a border. Results give the index of the first of doubled triangles; calls take
+    the index of any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only
+    hits both sides.
 
     positions: (vertex_count, 3) of float or double, any unit, any offset
     triangles: (triangle_count, 3) of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -1455,9 +1456,10 @@ class Surface(Object):
         over a quarter of the surface, and with Operator.CLAMPED, make the whole operator and its factor anew. Take
         links out before, and put them in again after it.
 
-        Solver.move_to and Pose.move_to take sites and handles along. Soft sites keep the unit of their stiffness
-        while links and triangles stay; others change it as they do for Surface.relink. Surface.save is refused: save
-        the factor of the surface before its edits. Memory limits hold for both surfaces together.
+        Solver.move_to takes sites along, and Pose.move_to takes handles along. After a patch or a cut make a new
+        pose: Pose.move_to refuses other triangles. Soft sites keep the unit of their stiffness while links and
+        triangles stay; others change it as they do for Surface.relink. Surface.save is refused: save the factor of
+        the surface before its edits. Memory limits hold for both surfaces together.
 
         vertices: (vertex_count,) as given; other vertices keep their stiffness. None: all vertices in order
         stiffness: (vertex_count,) 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. None: no
@@ -1480,7 +1482,9 @@ class Surface(Object):
         return made
 
     def cuts(self) -> np.ndarray[Any, Any]:
-        """Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts."""
+        """Writes the corners that all cuts gave other vertices since the surface was made, in the order of the cuts. A
+        second cut adds its corners behind the corners of the first cut: go on from the last count.
+        """
         c = Call(self)
         count = ctypes.c_uint32()
 
@@ -1738,7 +1742,7 @@ class Surface(Object):
         the vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, a
         role and a side. If its roles are known, feet and the trunk are pinned. Hands, heads, tails and pieces that
         hang on them, such as a sword, are not. Each head, hand, foot, tail, ear and wing gets at most one proposal. A
-        part that no joint of the skin moves, such as the box of a control, gets none.
+        part that no joint of the skin moves, such as the box that an animator drags, gets none.
 
         joints: (joint_count, 3) their places at rest, in the unit and frame of the mesh
         parents: (joint_count,) position of each joint's parent in the list; NO_INDEX for a root
@@ -2431,7 +2435,7 @@ class Pose(Recorded):
         surface: any number of calls of Surface.edit or Surface.relink make it from the pose's surface, or the pose's
             surface from it.
 
-        Raises ConflictError.
+        Raises ConflictError, UnsupportedError.
         """
         c = Call(self, surface=surface)
         call('hf_pose_move_to', self._handle, handle_of(surface, Surface, 'surface'))
@@ -2467,7 +2471,7 @@ class Pose(Recorded):
             below 1 % of the box makes regions of 2 vertices or more
         layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
         in_place: 1: handles of layer 0 start on the posed surface, not at rest; see below
-        free_rotation: 1: you give the places of the handles only; see Pose.set_free_rotations
+        free_rotation: 1: you give the places alone of all these handles; Pose.set_free_rotations frees single ones
         progress: an object to poll and cancel through
 
         Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
@@ -2596,7 +2600,8 @@ class Pose(Recorded):
 
         handles: (handle_count,).
         refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. With
-            1, bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
+            1, bends stay smooth. With 8 and more, most edges keep their lengths to a few per cent, and the limb bends
+            like two bones. Edges beside the handle can change more.
 
         Raises InvalidArgumentError, NotFoundError, UnsupportedError.
         """
@@ -3604,9 +3609,9 @@ class Transfer(Object):
         differ much on the two surfaces (PairInfo), it takes the direction of the source's limb instead, by a share.
 
         The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
-        Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The
-        result changes as little as the source does: a source that stands still except for noise gives a target that
-        stands still.
+        Removed pairs and earlier frames have no effect, so a scrubbed timeline and a played one give the same frames,
+        bit for bit. The result changes as little as the source does: a source that stands still except for noise
+        gives a target that stands still.
 
         The ground counts too if the mode is TransferMode.FIELDS and some pairs are anchors (their target region
         follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
@@ -3683,9 +3688,9 @@ class Weights(Recorded):
 
     heads: (joint_count, 3)
     tails: (joint_count, 3), or None: heads are joints, and the library finds the tails
-    axes: (joint_count, 3) with tails None: where each joint points, any length, 0 for unknown; or None. A joint
-        reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a
-        last joint ends
+    axes: (joint_count, 3) with tails None: where each joint points, any length, a zero vector for unknown; or None.
+        A joint reaches to the child that lies there, or to the end of the skin. A      child that does      not
+        deform says where a last joint ends
     parents: (joint_count,) number of the parent, NO_INDEX for a root; None: all are roots
     deforms: (joint_count,) 1: the joint gets weights; None: all do
     sources: (joint_count,) for Weights.set_joints: the number that the joint had before, NO_INDEX for a new one;
@@ -3734,9 +3739,9 @@ class Weights(Recorded):
 
         heads: (joint_count, 3)
         tails: (joint_count, 3), or None: heads are joints, and the library finds the tails
-        axes: (joint_count, 3) with tails None: where each joint points, any length, 0 for unknown; or None. A joint
-            reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a
-            last joint ends
+        axes: (joint_count, 3) with tails None: where each joint points, any length, a zero vector for unknown; or
+            None.      A joint reaches to the child that lies there, or to the end of the skin. A      child that does
+            not deform says where a last joint ends
         parents: (joint_count,) number of the parent, NO_INDEX for a root; None: all are roots
         deforms: (joint_count,) 1: the joint gets weights; None: all do
         sources: (joint_count,) for Weights.set_joints: the number that the joint had before, NO_INDEX for a new one;

@@ -650,7 +650,7 @@ pub struct HandlesOptions<'a> {
     pub layer: u32,
     /// 1: handles of layer 0 start on the posed surface, not at rest; see below
     pub in_place: bool,
-    /// 1: you give the places of the handles only; see `Pose::set_free_rotations`
+    /// 1: you give the places alone of all these handles; `Pose::set_free_rotations` frees single ones
     pub free_rotation: bool,
     /// `None`, or an object to poll and cancel through
     pub progress: Option<&'a Progress>,
@@ -1269,9 +1269,9 @@ pub struct Joints<'a> {
     pub heads: Option<&'a [f64]>,
     /// `[joint_count x 3]`, or `None`: heads are joints, and the library finds the tails
     pub tails: Option<&'a [f64]>,
-    /// `[joint_count x 3]` with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A joint
-    /// reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a last
-    /// joint ends
+    /// `[joint_count x 3]` with tails `None`: where each joint points, any length, a zero vector for unknown; or `None`.
+    /// A joint reaches to the child that lies there, or to the end of the skin. A      child that does      not deform
+    /// says where a last joint ends
     pub axes: Option<&'a [f64]>,
     /// `[joint_count]` number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
     pub parents: Option<&'a [u32]>,
@@ -1633,7 +1633,7 @@ pub struct WeightsOut {
 
 object!(
     /// Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one object
-    /// for one call at a time.
+    /// for one call at a time. If a cancel may come after the end of the call, make a new object for the next call.
     Progress: hf_progress, hf_progress_destroy
 );
 impl Progress {
@@ -1681,8 +1681,9 @@ impl Surface {
     ///
     /// A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
     /// doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
-    /// hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
-    /// Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+    /// hair or a cape, is one sheet with a border. Results give the index of the first of doubled triangles; calls take
+    /// the index of any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only
+    /// hits both sides.
     ///
     /// positions: `[vertex_count x 3]` of float or double, any unit, any offset
     /// triangles: `[triangle_count x 3]` of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -1891,9 +1892,10 @@ impl Surface {
     /// Patches over a quarter of the surface, and with [`raw::HF_OPERATOR_CLAMPED`], make the whole operator and its
     /// factor anew. Take links out before, and put them in again after it.
     ///
-    /// `Solver::move_to` and `Pose::move_to` take sites and handles along. Soft sites keep the unit of their stiffness
-    /// while links and triangles stay; others change it as they do for `Surface::relink`. `Surface::save` is refused:
-    /// save the factor of the surface before its edits. Memory limits hold for both surfaces together.
+    /// `Solver::move_to` takes sites along, and `Pose::move_to` takes handles along. After a patch or a cut make a new
+    /// pose: `Pose::move_to` refuses other triangles. Soft sites keep the unit of their stiffness while links and
+    /// triangles stay; others change it as they do for `Surface::relink`. `Surface::save` is refused: save the factor of
+    /// the surface before its edits. Memory limits hold for both surfaces together.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_EMPTY`],
     /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`],
@@ -1911,7 +1913,8 @@ impl Surface {
         Ok(made)
     }
 
-    /// Writes the corners that cuts gave other vertices since the surface was made, in the order of the cuts.
+    /// Writes the corners that all cuts gave other vertices since the surface was made, in the order of the cuts. A
+    /// second cut adds its corners behind the corners of the first cut: go on from the last count.
     pub fn cuts(&self) -> Result<Vec<raw::hf_cut_corner>> {
         let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
@@ -2217,7 +2220,7 @@ impl Surface {
     /// vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, a role and a
     /// side. If its roles are known, feet and the trunk are pinned. Hands, heads, tails and pieces that hang on them,
     /// such as a sword, are not. Each head, hand, foot, tail, ear and wing gets at most one proposal. A part that no
-    /// joint of the skin moves, such as the box of a control, gets none.
+    /// joint of the skin moves, such as the box that an animator drags, gets none.
     ///
     /// regions: `[vertex_count]`: position in the list of the proposal whose region has the vertex; [`raw::HF_NO_INDEX`]
     /// for a vertex of no region
@@ -3023,7 +3026,7 @@ impl Pose {
     /// surface: any number of calls of `Surface::edit` or `Surface::relink` make it from the pose's surface, or the
     /// pose's surface from it.
     ///
-    /// Fails with [`raw::HF_ERROR_CONFLICT`].
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn move_to(&mut self, surface: &Surface) -> Result<()> {
         let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         c.parent("surface", &surface.counts);
@@ -3202,7 +3205,8 @@ impl Pose {
     ///
     /// handles: `[handle_count]`.
     /// refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. With 1,
-    /// bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
+    /// bends stay smooth. With 8 and more, most edges keep their lengths to a few per cent, and the limb bends like
+    /// two bones. Edges beside the handle can change more.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn set_limb_refine(&mut self, handles: &[u32], refine: i32) -> Result<()> {
@@ -4304,9 +4308,9 @@ impl Transfer {
     /// much on the two surfaces ([`raw::hf_pair_info`]), it takes the direction of the source's limb instead, by a share.
     ///
     /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
-    /// Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result
-    /// changes as little as the source does: a source that stands still except for noise gives a target that stands
-    /// still.
+    /// Removed pairs and earlier frames have no effect, so a scrubbed timeline and a played one give the same frames, bit
+    /// for bit. The result changes as little as the source does: a source that stands still except for noise gives a
+    /// target that stands still.
     ///
     /// The ground counts too if the mode is [`raw::HF_TRANSFER_FIELDS`] and some pairs are anchors (their target region
     /// follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
