@@ -425,7 +425,7 @@ impl<'a> Scene<'a> {
                     rows.extend(cut.new_triangles[3 * t..3 * t + 3].iter().map(|v| f64::from(*v)));
                     rows.extend(&cut.corner_barycentrics[9 * t..9 * t + 9]);
                 }
-                return array(rows, false);
+                return Ok(Answer::Array(rows));
             }
             "cuts" => {
                 let cuts = on!(self, step, Surface).cuts()?;

@@ -82,7 +82,7 @@ PlainMesh applied(const Shape& shape, const TracedCut& cut) {
 
 struct Counts {
   std::map<Edge, int> directed;
-  std::set<Edge> border;
+  std::set<Edge> border, crowded;  // edges of one triangle, and of more than two
   int euler = 0, components = 0;
   std::size_t most_on_edge = 0;
 };
@@ -106,11 +106,24 @@ Counts counts(const PlainMesh& mesh) {
   for (const std::uint32_t v : used) roots.insert(sets.find(static_cast<Index>(v)));
   for (const auto& edge : edges) {
     if (edge.second == 1) out.border.insert(edge.first);
+    if (edge.second > 2) out.crowded.insert(edge.first);
     out.most_on_edge = std::max(out.most_on_edge, static_cast<std::size_t>(edge.second));
   }
   out.components = static_cast<int>(roots.size());
   out.euler = static_cast<int>(used.size()) - static_cast<int>(edges.size()) + static_cast<int>(mesh.triangle_count());
   EXPECT_EQ(used.size(), mesh.vertex_count());  // no vertex is lost
+  return out;
+}
+// A mesh whose vertices at one place are one.
+PlainMesh joined(const PlainMesh& mesh) {
+  PlainMesh out;
+  std::map<std::array<double, 3>, std::uint32_t> at_place;
+  for (const std::uint32_t v : mesh.triangles) {
+    const double* const p = &mesh.positions[3 * v];
+    const auto put = at_place.insert({{p[0], p[1], p[2]}, out.vertex_count()});
+    if (put.second) out.positions.insert(out.positions.end(), p, p + 3);
+    out.triangles.push_back(put.first->second);
+  }
   return out;
 }
 Edge ordered(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
@@ -162,11 +175,12 @@ PlainMesh check(const Shape& shape, const TracedCut& cut, bool closed = false) {
     for (int k = 0; k < 3 && place.vertex[k] != Mesh::none; ++k)
       on.insert(static_cast<std::uint32_t>(shape.mesh.given_of_inner[at(place.vertex[k])]));
   };
-  const auto is_on_border = [&](const Edge& edge) {
+  const auto is_on = [&](const Edge& edge, const std::set<Edge>& edges) {
     std::set<std::uint32_t> on;
     for (const std::uint32_t v : edge) places(v, on);
-    return on.size() == 2 && before.border.count({*on.begin(), *on.rbegin()}) > 0;
+    return on.size() == 2 && edges.count({*on.begin(), *on.rbegin()}) > 0;
   };
+  const auto is_on_border = [&](const Edge& edge) { return is_on(edge, before.border); };
   // Where a line touches a border between its ends, the border parts one side: its vertices there are of the next
   // piece.
   std::set<std::uint32_t> on_border;
@@ -179,6 +193,7 @@ PlainMesh check(const Shape& shape, const TracedCut& cut, bool closed = false) {
   };
   std::set<Edge> rims;
   const std::size_t points = cut.rims.size() / 2;
+  if (points < 3) closed = false;  // snapping can leave one edge of a closed line: it goes out and back
   for (std::size_t i = 0; i + !closed < points; ++i) {
     const std::uint32_t* const here = &cut.rims[2 * i];
     const std::uint32_t* const next = &cut.rims[2 * ((i + 1) % points)];
@@ -200,6 +215,7 @@ PlainMesh check(const Shape& shape, const TracedCut& cut, bool closed = false) {
   }
   for (const Edge& edge : now.border) {
     if (before.border.count(edge) > 0 || rims.count(edge) > 0 || touches(edge[0]) || touches(edge[1])) continue;
+    if (is_on(edge, before.crowded)) continue;  // a line along it parts all its triangles
     EXPECT_TRUE(is_on_border(edge)) << edge[0] << ", " << edge[1];
   }
   // the library takes it
@@ -244,8 +260,8 @@ TEST(TraceCut, RandomLinesKeepTheSurfaceOrAreRefused) {
   std::mt19937 random(11);
   int made = 0, refused = 0;
   const std::vector<PlainMesh> meshes = {
-      hf_test::grid(7, 6, 1, 0.3), hf_test::torus(14, 9),    hf_test::ball(2, 1, {0, 0, 0}), hf_test::disk(4),
-      hf_test::slab_with_holes(3), hf_test::ladder(1, 0.25), hf_test::book(3, 4, 4, 0.3)};
+      hf_test::grid(7, 6, 1, 0.3), hf_test::torus(14, 9),    hf_test::ball(2, 1, {0, 0, 0}),     hf_test::disk(4),
+      hf_test::slab_with_holes(3), hf_test::ladder(1, 0.25), joined(hf_test::book(3, 4, 4, 0.3))};
   for (const PlainMesh& plain : meshes) {
     const Shape shape(plain);
     for (int round = 0; round < rounds; ++round) {
