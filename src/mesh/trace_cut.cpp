@@ -384,6 +384,14 @@ class CutTracer {
         if (wing.next == global(q)) side[side[0] == Mesh::none ? 0 : 1] = wing.triangle;
       for (const Wing& wing : wings_at(p))
         if (wing.last == global(q)) side[side[1] == Mesh::none ? 1 : 0] = wing.triangle;
+      for (const Wing& wing : wings_at(p)) {  // where more than two triangles meet, those that go on
+        if (wing.next != global(q) && wing.last != global(q)) continue;
+        for (int s = 0; s < 2; ++s) {
+          const bool goes_on = side[s] != Mesh::none && number_at(side[s], p) == before[s];
+          if (!goes_on && wing.triangle != side[1 - s] && number_at(wing.triangle, p) == before[s])
+            side[s] = wing.triangle;
+        }
+      }
       std::uint32_t here[2] = {HF_NO_INDEX, HF_NO_INDEX};
       bool turned = false;  // triangles may be turned round: the left stays where it was
       for (int s = 0; s < 2; ++s) {

@@ -92,7 +92,7 @@ void blend(const Kernels&, bool neon, Data&) {
   static Affine transforms[shared * groups];
   alignas(64) static double columns[16 * shared * groups];
   if (weights.start.empty()) {
-    mesh.positions.assign(Data::vertices, {0.5, 0.25, 0.125});
+    mesh.positions.assign(Data::vertices, hf_inner::Vec3{0.5, 0.25, 0.125});
     for (int v = 0; v <= Data::vertices; ++v) weights.start.push_back(shared * v);
     for (int b = 0; b <= blocks; ++b) weights.block_start.push_back(shared * b);
     const auto cluster = [](int block, int at) { return static_cast<std::uint16_t>(block % groups * shared + at); };
