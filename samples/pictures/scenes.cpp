@@ -37,6 +37,14 @@ Surface Body::drawn(const std::vector<float>& posed) const {
   return out;
 }
 
+SurfaceLook strips_to(double high, int count) {
+  SurfaceLook look;
+  look.fill = Fill::iso_strips;
+  look.scalar_high = high;
+  look.strips = count;
+  return look;
+}
+
 View side_view(int width, int height) {
   View view;
   view.width = width;
@@ -120,12 +128,7 @@ Picture FieldScene::draw(int width, int height, double phase) {
   marks.dots.push_back({place(vertex), 0.018});
   View view = side_view(width, height);
   view.fixed_box = false;
-  SurfaceLook look;
-  look.fill = Fill::iso_strips;
-  look.scalar_low = 0;
-  look.scalar_high = 1;
-  look.strips = 20;
-  return render(drawn, view, look, marks);
+  return render(drawn, view, strips_to(1, 20), marks);
 }
 
 }  // namespace samples

@@ -36,6 +36,8 @@ struct Body {
 
 // A camera on a creature's right side, from a little ahead and above.
 View side_view(int width, int height);
+// A field from 0 to `high` in strips of equal steps.
+SurfaceLook strips_to(double high, int count);
 
 // The head is pulled until the creature rears, and goes back. The hind hooves stay. Handles are coloured.
 class PoseScene {

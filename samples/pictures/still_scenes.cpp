@@ -51,12 +51,8 @@ Picture draw_geodesics(const Body& body, int width, int height) {
   for (const uint32_t end : {muzzle, hoof}) marks.dots.push_back({point_of(body.mesh.positions, end), 0.014});
   View view = side_view(width, height);
   view.fixed_box = false;
-  SurfaceLook look;
-  look.fill = Fill::iso_strips;
-  look.scalar_low = 0;
-  look.scalar_high = *std::max_element(drawn.scalars.begin(), drawn.scalars.end());
-  look.strips = 32;
-  return render(drawn, view, look, marks);
+  const double farthest = *std::max_element(drawn.scalars.begin(), drawn.scalars.end());
+  return render(drawn, view, strips_to(farthest, 32), marks);
 }
 
 Picture draw_cut(const Body& body, int width, int height) {
@@ -97,12 +93,7 @@ Picture draw_cut(const Body& body, int width, int height) {
   marks.lines.push_back(line);
   View view = side_view(width, height);
   view.fixed_box = false;
-  SurfaceLook look;
-  look.fill = Fill::iso_strips;
-  look.scalar_low = 0;
-  look.scalar_high = 1;
-  look.strips = 24;
-  return render(drawn, view, look, marks);
+  return render(drawn, view, strips_to(1, 24), marks);
 }
 
 Picture draw_quads(const Body& body, int width, int height) {

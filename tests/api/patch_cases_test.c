@@ -1,42 +1,18 @@
 /* Patches and cuts of hf_surface_edit that were faulty once: the smallest input of each. */
-#include "bad_scene.h"
+#include "host_mesh.h"
 
-enum { AROUND = 12, RINGS = 18, VERTICES = AROUND * RINGS, MOST_VERTICES = VERTICES + 40, MOST_TRIANGLES = 800 };
+enum { AROUND = 12, RINGS = 18, VERTICES = AROUND * RINGS, MOST_VERTICES = VERTICES + 40 };
 
-/* The mesh of a host, beside the surface. A triangle that went has HF_NO_INDEX. */
 typedef struct Model {
-  uint32_t vertex_count, triangle_count;
-  double positions[3 * MOST_VERTICES];
-  uint32_t triangles[3 * MOST_TRIANGLES];
+  HostMesh mesh;
   hf_surface surface;
 } Model;
 
-static hf_surface fresh_of(const Model* model, int32_t operator_kind) {
-  static uint32_t triangles[3 * MOST_TRIANGLES];
-  uint32_t count = 0;
-  for (uint32_t t = 0; t < model->triangle_count; ++t) {
-    if (model->triangles[3 * t] == NO_INDEX) continue;
-    memcpy(&triangles[3 * count++], &model->triangles[3 * t], 3 * sizeof *triangles);
-  }
-  hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.positions = HF_ARRAY(model->positions, model->vertex_count);
-  desc.triangles = HF_ARRAY(triangles, count);
-  desc.weld = HF_WELD_NONE;
-  desc.operator_kind = operator_kind;
-  hf_surface out = NULL;
-  assert_ok(hf_surface_create(&desc, &out));
-  return out;
-}
 static void start(Model* model, int32_t operator_kind) {
-  Surface tube = surface_tube(AROUND, RINGS);
-  model->vertex_count = VERTICES;
-  model->triangle_count = tube.triangle_count;
-  for (uint32_t i = 0; i < 3 * VERTICES; ++i) model->positions[i] = tube.positions[i];
-  memcpy(model->triangles, tube.triangles, 12 * (size_t)tube.triangle_count);
-  surface_free(&tube);
-  model->surface = fresh_of(model, operator_kind);
+  host_take(&model->mesh, surface_tube(AROUND, RINGS));
+  model->surface = host_fresh(&model->mesh, operator_kind);
 }
-/* Patches the surface and the model alike. */
+/* Patches the surface and the mesh alike. */
 static void change(Model* model, uint32_t gone_count, const uint32_t* gone, uint32_t vertex_count,
                    const double* positions, uint32_t triangle_count, const uint32_t* triangles) {
   hf_patch_desc patch = HF_INIT(hf_patch_desc);
@@ -46,24 +22,15 @@ static void change(Model* model, uint32_t gone_count, const uint32_t* gone, uint
   patch.new_positions = positions;
   patch.new_triangle_count = triangle_count;
   patch.new_triangles = triangles;
-  hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
-  desc.patch = &patch;
-  hf_surface edited = NULL;
-  assert_ok(hf_surface_edit(model->surface, &desc, &edited));
+  const hf_surface edited = host_patch(&model->mesh, model->surface, &patch);
   hf_surface_destroy(model->surface);
   model->surface = edited;
-  for (uint32_t i = 0; i < gone_count; ++i)
-    for (uint32_t k = 0; k < 3; ++k) model->triangles[3 * gone[i] + k] = NO_INDEX;
-  if (vertex_count) memcpy(&model->positions[3 * model->vertex_count], positions, 24 * (size_t)vertex_count);
-  if (triangle_count) memcpy(&model->triangles[3 * model->triangle_count], triangles, 12 * (size_t)triangle_count);
-  model->vertex_count += vertex_count;
-  model->triangle_count += triangle_count;
 }
 /* The triangles at a vertex, and the same with another vertex in its place. */
 static uint32_t fan_of(const Model* model, uint32_t vertex, uint32_t other, uint32_t* list, uint32_t* corners) {
   uint32_t count = 0;
-  for (uint32_t t = 0; t < model->triangle_count; ++t) {
-    const uint32_t* const v = &model->triangles[3 * t];
+  for (uint32_t t = 0; t < model->mesh.triangle_count; ++t) {
+    const uint32_t* const v = &model->mesh.triangles[3 * t];
     if (v[0] != vertex && v[1] != vertex && v[2] != vertex) continue;
     for (uint32_t k = 0; k < 3; ++k) corners[3 * count + k] = v[k] == vertex ? other : v[k];
     list[count++] = t;
@@ -72,18 +39,18 @@ static uint32_t fan_of(const Model* model, uint32_t vertex, uint32_t other, uint
 }
 /* The largest difference from a field of a fresh surface. */
 static double difference(const Model* model, int32_t operator_kind) {
-  hf_surface surfaces[2] = {model->surface, fresh_of(model, operator_kind)};
+  hf_surface surfaces[2] = {model->surface, host_fresh(&model->mesh, operator_kind)};
   double* fields[2];
   for (int i = 0; i < 2; ++i) {
     hf_solver solver = solver_on(surfaces[i]);
     add_site(solver, 0, 0);
     add_site(solver, VERTICES - 2, 1);
     add_site(solver, VERTICES / 2, 0.25);
-    fields[i] = field_of(solver, model->vertex_count);
+    fields[i] = field_of(solver, model->mesh.vertex_count);
     hf_solver_destroy(solver);
   }
   double worst = 0;
-  for (uint32_t v = 0; v < model->vertex_count; ++v) worst = fmax(worst, fabs(fields[0][v] - fields[1][v]));
+  for (uint32_t v = 0; v < model->mesh.vertex_count; ++v) worst = fmax(worst, fabs(fields[0][v] - fields[1][v]));
   free(fields[0]);
   free(fields[1]);
   hf_surface_destroy(surfaces[1]);
@@ -98,7 +65,7 @@ static void a_vertex_comes_again_before_others_go(void** state) {
   start(&model, 0);
   uint32_t list[16], corners[48];
   uint32_t count = fan_of(&model, 9, VERTICES, list, corners);
-  const double nearby[3] = {model.positions[27] * 1.01, model.positions[28], model.positions[29] * 1.01};
+  const double nearby[3] = {model.mesh.positions[27] * 1.01, model.mesh.positions[28], model.mesh.positions[29] * 1.01};
   change(&model, count, list, 1, nearby, count, corners);
   count = fan_of(&model, 3, 9, list, corners);
   change(&model, count, list, 0, NULL, count, corners);
@@ -135,11 +102,11 @@ static void reports_are_those_of_a_fresh_surface(void** state) {
     static Model model;
     start(&model, HF_OPERATOR_CLAMPED);
     const uint32_t flap[3] = {0, 1, VERTICES};
-    const double far[3] = {4, 0, 0}, middle[3] = {0.5 * (model.positions[0] + model.positions[3]),
-                                                  0.5 * (model.positions[1] + model.positions[4]),
-                                                  0.5 * (model.positions[2] + model.positions[5])};
+    const double far[3] = {4, 0, 0}, middle[3] = {0.5 * (model.mesh.positions[0] + model.mesh.positions[3]),
+                                                  0.5 * (model.mesh.positions[1] + model.mesh.positions[4]),
+                                                  0.5 * (model.mesh.positions[2] + model.mesh.positions[5])};
     change(&model, 0, NULL, 1, step == 0 ? far : middle, 1, flap); /* outside the box; a sliver */
-    hf_surface fresh = fresh_of(&model, HF_OPERATOR_CLAMPED);
+    hf_surface fresh = host_fresh(&model.mesh, HF_OPERATOR_CLAMPED);
     hf_surface_report a = HF_INIT(hf_surface_report), b = HF_INIT(hf_surface_report);
     assert_ok(hf_surface_get_report(model.surface, &a));
     assert_ok(hf_surface_get_report(fresh, &b));

@@ -1,50 +1,13 @@
 /* Triangles that go and come, and cuts, by hf_surface_edit, against surfaces that hf_surface_create makes of the same
  * triangles. */
-#include "bad_scene.h"
+#include "host_mesh.h"
 
-enum { AROUND = 12, RINGS = 18, VERTICES = AROUND * RINGS, ROOM_VERTICES = 400, ROOM_TRIANGLES = 800 };
+enum { AROUND = 12, RINGS = 18, VERTICES = AROUND * RINGS };
 
 static Scene scene;
 
-/* The mesh of a host that edits it. A triangle that went has HF_NO_INDEX. */
-typedef struct Host {
-  uint32_t vertex_count, triangle_count;
-  double positions[3 * ROOM_VERTICES];
-  uint32_t triangles[3 * ROOM_TRIANGLES];
-} Host;
-
-static Host host_tube(void) {
-  Surface tube = surface_tube(AROUND, RINGS);
-  Host host = {VERTICES, tube.triangle_count, {0}, {0}};
-  for (uint32_t i = 0; i < 3 * VERTICES; ++i) host.positions[i] = tube.positions[i];
-  memcpy(host.triangles, tube.triangles, 12 * (size_t)tube.triangle_count);
-  surface_free(&tube);
-  return host;
-}
-static hf_surface fresh_of(const Host* host, int32_t operator_kind) {
-  uint32_t triangles[3 * ROOM_TRIANGLES], count = 0;
-  for (uint32_t t = 0; t < host->triangle_count; ++t) {
-    if (host->triangles[3 * t] == NO_INDEX) continue;
-    memcpy(&triangles[3 * count++], &host->triangles[3 * t], 3 * sizeof *triangles);
-  }
-  hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.positions = HF_ARRAY(host->positions, host->vertex_count);
-  desc.triangles = HF_ARRAY(triangles, count);
-  desc.weld = HF_WELD_NONE;
-  desc.operator_kind = operator_kind;
-  hf_surface out = NULL;
-  assert_ok(hf_surface_create(&desc, &out));
-  return out;
-}
-static hf_surface patched(hf_surface surface, const hf_patch_desc* patch) {
-  hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
-  desc.patch = patch;
-  hf_surface out = NULL;
-  assert_ok(hf_surface_edit(surface, &desc, &out));
-  return out;
-}
 /* Replaces some triangles by three each, with a vertex in the middle. */
-static hf_surface refined(hf_surface surface, Host* host, uint32_t count, const uint32_t* list) {
+static hf_surface refined(hf_surface surface, HostMesh* host, uint32_t count, const uint32_t* list) {
   double middle[3 * 40] = {0};
   uint32_t fans[9 * 40];
   for (uint32_t i = 0; i < count; ++i) {
@@ -62,25 +25,18 @@ static hf_surface refined(hf_surface surface, Host* host, uint32_t count, const 
   patch.new_positions = middle;
   patch.new_triangle_count = 3 * count;
   patch.new_triangles = fans;
-  hf_surface out = patched(surface, &patch);
-  for (uint32_t i = 0; i < count; ++i)
-    for (uint32_t k = 0; k < 3; ++k) host->triangles[3 * list[i] + k] = NO_INDEX;
-  memcpy(&host->positions[3 * host->vertex_count], middle, 24 * (size_t)count);
-  memcpy(&host->triangles[3 * host->triangle_count], fans, 36 * (size_t)count);
-  host->vertex_count += count;
-  host->triangle_count += 3 * count;
-  return out;
+  return host_patch(host, surface, &patch);
 }
 /* Cuts, and takes the corners over as a host does. */
-static hf_surface cut_along(hf_surface surface, Host* host, uint32_t count, const uint32_t* edges) {
+static hf_surface cut_along(hf_surface surface, HostMesh* host, uint32_t count, const uint32_t* edges) {
   hf_patch_desc patch = HF_INIT(hf_patch_desc);
   patch.cut_edge_count = count;
   patch.cut_edges = edges;
-  hf_surface out = patched(surface, &patch);
-  hf_cut_corner corners[ROOM_TRIANGLES];
+  hf_surface out = host_patch(host, surface, &patch);
+  hf_cut_corner corners[HOST_ROOM];
   uint32_t corner_count = 0, before = 0;
   assert_ok(hf_surface_get_cuts(surface, 0, NULL, &before));
-  assert_ok(hf_surface_get_cuts(out, ROOM_TRIANGLES, corners, &corner_count));
+  assert_ok(hf_surface_get_cuts(out, HOST_ROOM, corners, &corner_count));
   assert_true(corner_count > before);
   for (uint32_t i = before; i < corner_count; ++i) {
     const hf_cut_corner c = corners[i];
@@ -134,8 +90,9 @@ static void a_solver_follows_patches_and_cuts(void** state) {
   const int32_t kinds[] = {HF_OPERATOR_INTRINSIC_DELAUNAY, HF_OPERATOR_COTANGENT, HF_OPERATOR_CLAMPED,
                            HF_OPERATOR_UNIFORM};
   for (size_t k = 0; k < COUNT_OF(kinds); ++k) {
-    Host host = host_tube();
-    hf_surface surfaces[5] = {fresh_of(&host, kinds[k])};
+    static HostMesh host;
+    host_take(&host, surface_tube(AROUND, RINGS));
+    hf_surface surfaces[5] = {host_fresh(&host, kinds[k])};
     hf_solver solver = ramp_on(surfaces[0]);
     double* const before = field_of(solver, VERTICES);
     const uint32_t some[] = {40, 41, 42, 43, 64, 65, 66, 200}, others[] = {44, 45, 150, 90};
@@ -145,7 +102,7 @@ static void a_solver_follows_patches_and_cuts(void** state) {
       if (step == 2) surfaces[2] = cut_along(surfaces[1], &host, ring_edges(4, 5, edges), edges);
       if (step == 3) surfaces[3] = cut_along(surfaces[2], &host, ring_edges(12, AROUND, edges), edges);
       if (step == 4) surfaces[4] = refined(surfaces[3], &host, COUNT_OF(others), others);
-      hf_surface fresh = fresh_of(&host, kinds[k]);
+      hf_surface fresh = host_fresh(&host, kinds[k]);
       hf_solver same = ramp_on(fresh);
       assert_ok(hf_solver_move_to(solver, surfaces[step]));
       assert_true(apart(solver, same, host.vertex_count) < 1e-10);
@@ -178,12 +135,13 @@ static void a_solver_follows_patches_and_cuts(void** state) {
 /* Every other noun made on a patched surface is the one of a fresh surface. */
 static void other_nouns_are_those_of_a_fresh_surface(void** state) {
   (void)state;
-  static double a[ROOM_VERTICES], b[ROOM_VERTICES];
-  Host host = host_tube();
+  static double a[HOST_ROOM], b[HOST_ROOM];
+  static HostMesh host;
+  host_take(&host, surface_tube(AROUND, RINGS));
   const uint32_t some[] = {40, 41, 42, 43, 64, 65, 66, 200};
   uint32_t edges[2 * AROUND];
-  hf_surface plain = fresh_of(&host, 0), fine = refined(plain, &host, COUNT_OF(some), some),
-             both = cut_along(fine, &host, ring_edges(9, 7, edges), edges), fresh = fresh_of(&host, 0);
+  hf_surface plain = host_fresh(&host, 0), fine = refined(plain, &host, COUNT_OF(some), some),
+             both = cut_along(fine, &host, ring_edges(9, 7, edges), edges), fresh = host_fresh(&host, 0);
   hf_surface surfaces[2] = {both, fresh};
   double* outs[2] = {a, b};
   const uint32_t source = 3;
@@ -198,7 +156,7 @@ static void other_nouns_are_those_of_a_fresh_surface(void** state) {
     }
     for (uint32_t v = 0; v < host.vertex_count; ++v) assert_float_equal(a[v], b[v], 1e-9);
   }
-  static float posed[2][3 * ROOM_VERTICES];
+  static float posed[2][3 * HOST_ROOM];
   for (int i = 0; i < 2; ++i) {
     hf_pose pose = NULL;
     assert_ok(hf_pose_create(surfaces[i], NULL, &pose));
@@ -219,7 +177,7 @@ static void other_nouns_are_those_of_a_fresh_surface(void** state) {
     turn.translation[2] = 1;
     assert_ok(hf_pose_set_transforms(pose, 1, &numbers[1], &turn));
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
-    desc.positions = HF_ARRAY_OUT(posed[i], ROOM_VERTICES);
+    desc.positions = HF_ARRAY_OUT(posed[i], HOST_ROOM);
     desc.restart = 1;
     desc.iteration_count = 100;
     assert_ok(hf_pose_deform(pose, &desc, NULL));
@@ -233,7 +191,8 @@ static void other_nouns_are_those_of_a_fresh_surface(void** state) {
 /* Stiffness goes along, and links come in after a patch. */
 static void stiffness_and_links_meet_patches(void** state) {
   (void)state;
-  Host host = host_tube();
+  static HostMesh host;
+  host_take(&host, surface_tube(AROUND, RINGS));
   uint32_t edges[2 * AROUND], vertices[30];
   double stiffness[30];
   for (uint32_t i = 0; i < 30; ++i) {
@@ -252,11 +211,12 @@ static void stiffness_and_links_meet_patches(void** state) {
   link.barycentrics[0] = link.weight = 1;
   hold.link_count = 1;
   hold.links = &link;
-  hf_surface plain = fresh_of(&host, 0), stiff = NULL, cut = NULL, held = NULL, again = NULL, fresh = NULL, soft = NULL;
+  hf_surface plain = host_fresh(&host, 0), stiff = NULL, cut = NULL, held = NULL, again = NULL, fresh = NULL,
+             soft = NULL;
   assert_ok(hf_surface_edit(plain, &stroke, &stiff));
   cut = cut_along(stiff, &host, ring_edges(9, AROUND, edges), edges);
   assert_ok(hf_surface_edit(cut, &hold, &held));
-  fresh = fresh_of(&host, 0);
+  fresh = host_fresh(&host, 0);
   assert_ok(hf_surface_edit(fresh, &stroke, &soft));
   assert_ok(hf_surface_edit(soft, &hold, &again));
   hf_solver a = ramp_on(cut), b = ramp_on(soft);
@@ -376,7 +336,7 @@ static void bad_patches_are_refused_by_index_and_change_nothing(void** state) {
   patch = HF_INIT(hf_patch_desc);
   patch.removed_triangle_count = count;
   patch.removed_triangles = around;
-  hf_surface holed = patched(scene.body, &patch);
+  hf_surface holed = host_patch(NULL, scene.body, &patch);
   check_row(__LINE__, "a site went", "hf_solver_move_to", hf_solver_move_to(solver, holed), HF_ERROR_CONFLICT, lone);
   assert_code(HF_ERROR_UNSUPPORTED, hf_pose_move_to(scene.pose, holed));
   assert_true(nothing_changed());

@@ -1,15 +1,8 @@
 /* Cuts through triangles: hf_surface_trace_cut, and hf_surface_edit with its arrays, against surfaces that
  * hf_surface_create makes of the same triangles. */
-#include "bad_scene.h"
+#include "host_mesh.h"
 
-enum { AROUND = 12, RINGS = 18, VERTICES = AROUND * RINGS, SPACE = 4000 };
-
-/* The mesh of a host that cuts it. A triangle that went has NO_INDEX. */
-typedef struct Host {
-  uint32_t vertex_count, triangle_count;
-  double positions[3 * SPACE];
-  uint32_t triangles[3 * SPACE];
-} Host;
+enum { AROUND = 12, RINGS = 18, VERTICES = AROUND * RINGS, SPACE = HOST_ROOM };
 
 /* The arrays of one cut. */
 typedef struct Arrays {
@@ -18,31 +11,9 @@ typedef struct Arrays {
   double positions[3 * SPACE], barycentrics[3 * SPACE], weights[9 * SPACE];
 } Arrays;
 
-static Host host;
+static HostMesh host;
 static Arrays arrays;
 
-static void take(const Surface* mesh) {
-  memset(&host, 0, sizeof host);
-  host.vertex_count = mesh->vertex_count;
-  host.triangle_count = mesh->triangle_count;
-  for (uint32_t i = 0; i < 3 * mesh->vertex_count; ++i) host.positions[i] = mesh->positions[i];
-  memcpy(host.triangles, mesh->triangles, 12 * (size_t)mesh->triangle_count);
-}
-static hf_surface fresh_of_host(void) {
-  static uint32_t triangles[3 * SPACE];
-  uint32_t count = 0;
-  for (uint32_t t = 0; t < host.triangle_count; ++t) {
-    if (host.triangles[3 * t] == NO_INDEX) continue;
-    memcpy(&triangles[3 * count++], &host.triangles[3 * t], 3 * sizeof *triangles);
-  }
-  hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.positions = HF_ARRAY(host.positions, host.vertex_count);
-  desc.triangles = HF_ARRAY(triangles, count);
-  desc.weld = HF_WELD_NONE;
-  hf_surface out = NULL;
-  assert_ok(hf_surface_create(&desc, &out));
-  return out;
-}
 static hf_cut_desc line_of(uint32_t count, const hf_place* places) {
   hf_cut_desc desc = HF_INIT(hf_cut_desc);
   desc.point_count = count;
@@ -73,16 +44,7 @@ static hf_surface apply(hf_surface surface) {
   patch.new_positions = c->new_positions;
   patch.new_triangle_count = c->new_triangle_count;
   patch.new_triangles = c->new_triangles;
-  hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
-  desc.patch = &patch;
-  hf_surface out = NULL;
-  assert_ok(hf_surface_edit(surface, &desc, &out));
-  for (uint32_t i = 0; i < c->removed_triangle_count; ++i) host.triangles[3 * arrays.removed[i]] = NO_INDEX;
-  memcpy(&host.positions[3 * host.vertex_count], arrays.positions, 24 * (size_t)c->new_vertex_count);
-  memcpy(&host.triangles[3 * host.triangle_count], arrays.triangles, 12 * (size_t)c->new_triangle_count);
-  host.vertex_count += c->new_vertex_count;
-  host.triangle_count += c->new_triangle_count;
-  return out;
+  return host_patch(&host, surface, &patch);
 }
 static hf_surface cut_by(hf_surface surface, uint32_t count, const hf_place* places) {
   const hf_cut_desc desc = line_of(count, places);
@@ -116,11 +78,8 @@ static double apart(hf_surface one, hf_surface two, uint32_t site_count, const u
   return worst;
 }
 static hf_surface tube(void) {
-  Surface mesh = surface_tube(AROUND, RINGS);
-  take(&mesh);
-  const hf_surface out = surface_on(&mesh);
-  surface_free(&mesh);
-  return out;
+  host_take(&host, surface_tube(AROUND, RINGS));
+  return host_fresh(&host, 0);
 }
 
 static void a_line_from_border_to_border_parts_fields(void** state) {
@@ -130,7 +89,7 @@ static void a_line_from_border_to_border_parts_fields(void** state) {
   /* along the tube and once through many triangles: the tube is a sheet then */
   const hf_place line[3] = {in_triangle(0, 0.55, 0.01), in_triangle(2 * AROUND * 8 + 5, 0.3, 0.3),
                             in_triangle(2 * AROUND * (RINGS - 2) + 7, 0.02, 0.3)};
-  hf_surface open = cut_by(body, 3, line), fresh = fresh_of_host();
+  hf_surface open = cut_by(body, 3, line), fresh = host_fresh(&host, 0);
   assert_int_equal(component_count(open), 1);
   /* 0 and 1 at the two sides of the middle of the line */
   const uint32_t* const rim = &arrays.rims[2 * (arrays.cut.rim_count / 2)];
@@ -155,7 +114,7 @@ static void a_closed_line_cuts_a_part_out(void** state) {
   hf_place ring[5];
   for (uint32_t i = 0; i < 4; ++i) ring[i] = in_triangle(2 * AROUND * 7 + 6 * i, 0.3, 0.2 + 0.1 * i);
   ring[4] = ring[0];
-  hf_surface two = cut_by(body, 5, ring), fresh = fresh_of_host();
+  hf_surface two = cut_by(body, 5, ring), fresh = host_fresh(&host, 0);
   assert_int_equal(component_count(two), 2);
   const uint32_t ends[2] = {0, VERTICES - 1};
   assert_true(apart(two, fresh, 2, ends) < 1e-11);
@@ -200,7 +159,7 @@ static void lines_pass_vertices_and_run_along_edges(void** state) {
   hf_surface body = tube();
   /* up one row of vertices, from border to border: edges alone */
   const hf_place column[2] = {at(3), at(3 + (RINGS - 1) * AROUND)};
-  hf_surface open = cut_by(body, 2, column), fresh = fresh_of_host();
+  hf_surface open = cut_by(body, 2, column), fresh = host_fresh(&host, 0);
   assert_int_equal(arrays.cut.new_vertex_count, RINGS);
   assert_int_equal(arrays.cut.new_triangle_count, arrays.cut.removed_triangle_count);
   const uint32_t sides[2] = {arrays.rims[RINGS], arrays.rims[RINGS + 1]};
