@@ -144,6 +144,35 @@ TEST(Stance, ABodyStoredInMidStrideStandsAsItsSkinWasBound) {
   }
 }
 
+double lowest(const std::vector<glm::dvec3>& positions) {
+  double low = positions[0].y;
+  for (const glm::dvec3& p : positions) low = std::min(low, p.y);
+  return low;
+}
+
+// A file from a program that stood at a frame of a clip: knees are bent, one more than the other. Its limbs would all
+// be counted from there.
+TEST(Stance, ABodyStoredInAFrameOfAnIdleClipStandsAsBoundOnTheGroundOfTheFile) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+  Model model = even;
+  for (const auto& [joint, angle] :
+       {std::pair{2, 20.0}, {10, -40.0}, {11, 60.0}, {12, -20.0}, {13, -20.0}, {14, 50.0}, {15, -30.0}})
+    turn_node(model, bone(joint), {1, 0, 0}, angle);
+  const hf_gltf::FlatMesh stored = flatten(model);
+  const hf_gltf::Axes given;  // with them the body is understood
+  const auto found = find_stance(model, stored, &given);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->from, "as bound");
+  EXPECT_FALSE(found->needed);
+  std::vector<glm::dvec3> stands = hf_gltf::posed_positions(model, stored, found->pose);
+  EXPECT_NEAR(lowest(stands), lowest(stored.positions), 1e-6);
+  EXPECT_GT(lowest(stored.positions), lowest(flatten(even).positions) + 0.03);  // knees bend, hips stay
+  const double raised = lowest(stands) - lowest(flatten(even).positions);
+  for (glm::dvec3& p : stands) p.y -= raised;
+  EXPECT_LT(apart(stands, flatten(even).positions), 1e-4);
+}
+
 // Binds the skin in the pose of the nodes.
 void bind(Model& model) {
   const std::vector<glm::dvec3> placed = flatten(model).positions;
