@@ -19,7 +19,7 @@ struct Stance {
 
 // Returns a pose of the file that is a better standing pose. Its joints mirror each other, its parts are known, its
 // legs are on the ground. It is the pose in which the skin was bound, else the pose at the start or the end of a clip.
-// A pose of the nodes that stands, but is uneven by more than a degree of a limb, gives way to the bound pose alone.
+// A pose of the nodes that stands, but is uneven by more than two degrees of a limb, gives way to the bound pose alone.
 // None: the pose of the nodes is good enough, or no pose is better. axes: given by the caller, or null.
 std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, const Axes* axes);
 

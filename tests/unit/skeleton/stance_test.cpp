@@ -157,7 +157,7 @@ TEST(Stance, ABodyStoredInAFrameOfAnIdleClipStandsAsBoundOnTheGroundOfTheFile) {
   const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
   Model model = even;
   for (const auto& [joint, angle] :
-       {std::pair{2, 20.0}, {10, -40.0}, {11, 60.0}, {12, -20.0}, {13, -20.0}, {14, 50.0}, {15, -30.0}})
+       {std::pair{2, 50.0}, {10, -40.0}, {11, 60.0}, {12, -20.0}, {13, -20.0}, {14, 50.0}, {15, -30.0}})
     turn_node(model, bone(joint), {1, 0, 0}, angle);
   const hf_gltf::FlatMesh stored = flatten(model);
   const hf_gltf::Axes given;  // with them the body is understood
