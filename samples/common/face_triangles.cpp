@@ -10,7 +10,7 @@ namespace samples {
 
 struct FaceTriangles::Inner {
   hf_inner::Memory memory;
-  hf_inner::FaceCutter cutter{memory};
+  hf_inner::mesh::FaceCutter cutter{memory};
   std::vector<int32_t> vertices;
   std::vector<hf_inner::Vec3> points;
 };

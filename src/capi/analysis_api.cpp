@@ -17,12 +17,13 @@ namespace {
 
 struct GeodesicsObject final : Object {
   static constexpr Kind kind_of = Kind::geodesics;
-  GeodesicsObject(const Surface& surface, const DistanceOptions& options, std::shared_ptr<ProgressObject> calls)
+  GeodesicsObject(const surface::Surface& surface, const field::DistanceOptions& options,
+                  std::shared_ptr<ProgressObject> calls)
       : Object(kind_of, surface.geometry().memory),
         progress(std::move(calls)),
         distances(surface, options.method, options.smoothing) {}
   std::shared_ptr<ProgressObject> progress;  // of every call, or null
-  Distances distances;
+  field::Distances distances;
 };
 
 void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* vertices,
@@ -31,29 +32,29 @@ void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* ver
   require(out_distances, "out_distances");
   require_list(count, vertices, "source_count", "sources");
   const Reading reading(*object);
-  const Geometry& shape = object->distances.geometry();
+  const surface::Geometry& shape = object->distances.geometry();
   const Rows out = need_reals(out_distances, 1, shape.mesh.report.vertex_count, "vertices", "out_distances");
-  const Vector<std::int32_t> sources = read_source_vertices(shape.mesh, count, vertices, *shape.memory);
-  Workspace field(shape.workspaces, static_cast<std::size_t>(shape.mesh.vertex_count()));
+  const Vector<std::int32_t> sources = field::read_source_vertices(shape.mesh, count, vertices, *shape.memory);
+  surface::Workspace field(shape.workspaces, static_cast<std::size_t>(shape.mesh.vertex_count()));
   with_progress(object->progress, [&] { object->distances.solve(sources, field.data()); });
   const double scale = shape.mesh.scale;
   write_vertices(
-      shape, 1, out, [](const Mesh::Isolated&, double* values) { values[0] = -1; },
+      shape, 1, out, [](const mesh::Mesh::Isolated&, double* values) { values[0] = -1; },
       [&](std::size_t v, double* values) { values[0] = field[v] < 0 ? -1 : scale * field[v]; });
 }
 
 void find_path(const GeodesicsObject& object, const hf_place* from, const hf_place* to, hf_path* inout_path) {
   hf_path out = read_struct(inout_path, "inout_path");
   require_zero(out.reserved);
-  const Geometry& shape = object.distances.geometry();
+  const surface::Geometry& shape = object.distances.geometry();
   Memory& memory = *shape.memory;
-  SurfacePlace first, last;
-  const SurfacePath path = object.distances.with_sides([&](const TriangleSides& sides) {
-    const PointOnSurface begin = point_on_surface(sides, from, "from", 0, memory);
-    const PointOnSurface end = point_on_surface(sides, to, "to", 1, memory);
+  mesh::SurfacePlace first, last;
+  const mesh::SurfacePath path = object.distances.with_sides([&](const mesh::TriangleSides& sides) {
+    const field::PointOnSurface begin = field::point_on_surface(sides, from, "from", 0, memory);
+    const field::PointOnSurface end = field::point_on_surface(sides, to, "to", 1, memory);
     first = begin.place;
     last = end.place;
-    return with_progress(object.progress, [&] { return shortest_path(sides, begin.point, end.point, memory); });
+    return with_progress(object.progress, [&] { return mesh::shortest_path(sides, begin.point, end.point, memory); });
   });
   out.point_count = static_cast<std::uint32_t>(path.points.size());
   out.length = path.points.empty() ? -1 : shape.mesh.scale * path.length;
@@ -61,33 +62,36 @@ void find_path(const GeodesicsObject& object, const hf_place* from, const hf_pla
   check_capacity(out.point_edges || out.parameters || out.positions, out.point_capacity, out.point_count,
                  "point_capacity");
   for (std::size_t i = 0; i < path.points.size(); ++i) {
-    const PathPoint& point = path.points[i];
+    const mesh::PathPoint& point = path.points[i];
     if (out.point_edges) {
-      out.point_edges[2 * i] = given_vertex(shape.mesh, point.a);
-      out.point_edges[2 * i + 1] = given_vertex(shape.mesh, point.b);
+      out.point_edges[2 * i] = mesh::given_vertex(shape.mesh, point.a);
+      out.point_edges[2 * i + 1] = mesh::given_vertex(shape.mesh, point.b);
     }
     if (out.parameters) out.parameters[i] = point.t;
     if (!out.positions) continue;
-    const Vec3 p = point.a >= 0 ? position_of(shape.mesh, point) : position_of(shape.mesh, i == 0 ? first : last);
+    const Vec3 p =
+        point.a >= 0 ? mesh::position_of(shape.mesh, point) : mesh::position_of(shape.mesh, i == 0 ? first : last);
     put(p, out.positions + 3 * i);
   }
 }
 
 void log_map(const GeodesicsObject& object, const hf_place* centre, double radius, double* out_map, double* out_frame) {
   require(out_map, "out_map");
-  const Geometry& shape = object.distances.geometry();
-  const double reach = read_map_radius(shape.mesh, radius);
+  const surface::Geometry& shape = object.distances.geometry();
+  const double reach = field::read_map_radius(shape.mesh, radius);
   const double scale = shape.mesh.scale;
-  Workspace map(shape.workspaces, 2 * static_cast<std::size_t>(shape.mesh.vertex_count()));
+  surface::Workspace map(shape.workspaces, 2 * static_cast<std::size_t>(shape.mesh.vertex_count()));
   Vec3 frame[2];
-  object.distances.with_sides([&](const TriangleSides& sides) {
-    const PointOnSurface from = point_on_surface(sides, centre, "centre", 0, *shape.memory);
+  object.distances.with_sides([&](const mesh::TriangleSides& sides) {
+    const field::PointOnSurface from = field::point_on_surface(sides, centre, "centre", 0, *shape.memory);
     with_progress(object.progress, [&] { object.distances.log_map(sides, from.point, reach, map.data(), frame); });
     return 0;
   });
   write_vertices(
       shape, 2, Rows(out_map, 2 * sizeof(double)),
-      [](const Mesh::Isolated&, double* values) { values[0] = values[1] = std::numeric_limits<double>::quiet_NaN(); },
+      [](const mesh::Mesh::Isolated&, double* values) {
+        values[0] = values[1] = std::numeric_limits<double>::quiet_NaN();
+      },
       [&](std::size_t v, double* values) {
         values[0] = scale * map[2 * v];
         values[1] = scale * map[2 * v + 1];
@@ -98,17 +102,18 @@ void log_map(const GeodesicsObject& object, const hf_place* centre, double radiu
   }
 }
 
-Extremities search(const std::shared_ptr<const Core>& core, const hf_extremities_desc& desc) {
+field::Extremities search(const std::shared_ptr<const surface::Core>& core, const hf_extremities_desc& desc) {
   const double least = desc.least_length_share;
-  if (desc.kind == HF_EXTREMITIES_POISSON) return poisson_extremities(*core, least);
+  if (desc.kind == HF_EXTREMITIES_POISSON) return field::poisson_extremities(*core, least);
   const std::int32_t sources = static_cast<std::int32_t>(desc.source_count);
-  if (!desc.geodesics) return geodesic_extremities(core, default_smoothing, sources, least);
+  if (!desc.geodesics) return field::geodesic_extremities(core, field::default_smoothing, sources, least);
   const auto object = get<GeodesicsObject>(desc.geodesics, "desc->geodesics");
   const Reading reading(*object);
   if (&object->distances.geometry() != core->geometry.get())
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "desc->geodesics belongs to another surface; make it on this surface");
-  if (const Geodesics* heat = object->distances.heat()) return geodesic_extremities(*heat, sources, least);
-  return geodesic_extremities(core, default_smoothing, sources, least);
+  if (const field::Geodesics* heat = object->distances.heat())
+    return field::geodesic_extremities(*heat, sources, least);
+  return field::geodesic_extremities(core, field::default_smoothing, sources, least);
 }
 
 }  // namespace
@@ -123,12 +128,12 @@ hf_result hf_surface_space_levels(hf_surface handle, const hf_array* field, int3
                                   double* out_levels) {
   return guarded("hf_surface_space_levels", [&] {
     const auto surface = mesh_surface(handle, "levels");
-    const LevelSpacing steps = read_spacing(spacing, level_count);
+    const field::LevelSpacing steps = field::read_spacing(spacing, level_count);
     require(out_levels, "out_levels");
-    const Geometry& shape = surface->surface.geometry().unlinked();
-    const Vector<double> values = read_scalars(shape, field);
+    const surface::Geometry& shape = surface->surface.geometry().unlinked();
+    const Vector<double> values = field::read_scalars(shape, field);
     Vector<double> levels(level_count, shape.memory.get());
-    space_levels(shape.mesh, values, steps, levels, *shape.memory);
+    field::space_levels(shape.mesh, values, steps, levels, *shape.memory);
     std::copy(levels.begin(), levels.end(), out_levels);
   });
 }
@@ -140,10 +145,10 @@ hf_result hf_surface_trace_isolines(hf_surface handle, const hf_array* given, ui
     hf_isolines out = read_struct(inout_lines, "inout_lines");
     require_zero(out.reserved);
     require_list(level_count, levels, "level_count", "levels");
-    const Geometry& shape = surface->surface.geometry().unlinked();
-    const Vector<double> field = read_scalars(shape, given);
-    const Isolines lines =
-        trace_isolines(shape.mesh, shape.topology(), field, Span<const double>(levels, level_count), *shape.memory);
+    const surface::Geometry& shape = surface->surface.geometry().unlinked();
+    const Vector<double> field = field::read_scalars(shape, given);
+    const field::Isolines lines = field::trace_isolines(shape.mesh, shape.topology(), field,
+                                                        Span<const double>(levels, level_count), *shape.memory);
     out.point_count = static_cast<std::uint32_t>(lines.points.size());
     out.line_count = lines.line_count();
     write_struct(inout_lines, out);
@@ -152,14 +157,14 @@ hf_result hf_surface_trace_isolines(hf_surface handle, const hf_array* given, ui
     check_capacity(points, out.point_capacity, out.point_count, "point_capacity");
     check_capacity(per_line, out.line_capacity, out.line_count, "line_capacity");
     for (std::size_t i = 0; i < lines.points.size(); ++i) {
-      const Isolines::Point& point = lines.points[i];
+      const field::Isolines::Point& point = lines.points[i];
       if (out.point_edges) {
-        out.point_edges[2 * i] = given_vertex(shape.mesh, point.a);
-        out.point_edges[2 * i + 1] = given_vertex(shape.mesh, point.b);
+        out.point_edges[2 * i] = mesh::given_vertex(shape.mesh, point.a);
+        out.point_edges[2 * i + 1] = mesh::given_vertex(shape.mesh, point.b);
       }
       if (out.parameters) out.parameters[i] = point.t;
       if (out.positions) {
-        put(position_of(shape.mesh, point), out.positions + 3 * i);
+        put(field::position_of(shape.mesh, point), out.positions + 3 * i);
       }
     }
     for (std::size_t l = 0; l < lines.level.size(); ++l) {
@@ -177,9 +182,9 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_array* giv
     const auto surface = mesh_surface(handle, "critical points");
     require_either(out_points, out_info, "out_points and out_info");
     if (out_info) check_struct(out_info, "out_info");
-    const Geometry& shape = surface->surface.geometry().unlinked();
-    const Vector<double> field = read_scalars(shape, given);
-    const CriticalPoints found = find_critical_points(shape.mesh, shape.topology(), field, *shape.memory);
+    const surface::Geometry& shape = surface->surface.geometry().unlinked();
+    const Vector<double> field = field::read_scalars(shape, given);
+    const field::CriticalPoints found = field::find_critical_points(shape.mesh, shape.topology(), field, *shape.memory);
     hf_critical_info info{};
     info.point_count = static_cast<std::uint32_t>(found.points.size());
     info.minimum_count = found.minima;
@@ -190,9 +195,9 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_array* giv
     if (out_info) write_struct(out_info, info);
     check_capacity(out_points, capacity, info.point_count, "capacity");
     for (std::size_t i = 0; out_points && i < found.points.size(); ++i) {
-      const CriticalPoint& point = found.points[i];
+      const field::CriticalPoint& point = found.points[i];
       const std::size_t v = static_cast<std::size_t>(point.vertex);
-      out_points[i] = {given_vertex(shape.mesh, point.vertex), static_cast<std::int32_t>(point.kind), point.index,
+      out_points[i] = {mesh::given_vertex(shape.mesh, point.vertex), static_cast<std::int32_t>(point.kind), point.index,
                        static_cast<std::uint32_t>(shape.mesh.component[v]), field[v]};
     }
   });
@@ -202,7 +207,7 @@ hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given
   return create("hf_geodesics_create", out_geodesics, "out_geodesics", [&] {
     const auto object = mesh_surface(surface, "geodesic distances");
     const hf_geodesics_desc desc = read_optional(given, "desc");
-    const DistanceOptions options = read_geodesics(desc);
+    const field::DistanceOptions options = field::read_geodesics(desc);
     const std::shared_ptr<ProgressObject> progress = progress_of(desc.progress);
     return with_progress(progress, [&] {
       auto made = make_owner_in<GeodesicsObject>(object->memory, object->surface, options, progress);
@@ -240,19 +245,19 @@ hf_result hf_geodesics_get_map(hf_geodesics geodesics, const hf_place* centre, d
 hf_result hf_surface_find_extremities(hf_surface handle, const hf_extremities_desc* given, uint32_t capacity,
                                       hf_extremity* out_extremities, uint32_t* out_count) {
   return guarded("hf_surface_find_extremities", [&] {
-    const std::shared_ptr<const Core> shared = unlinked_core(handle, "extremities");
-    const hf_extremities_desc desc = read_extremities(read_optional(given, "desc"));
+    const std::shared_ptr<const surface::Core> shared = unlinked_core(handle, "extremities");
+    const hf_extremities_desc desc = field::read_extremities(read_optional(given, "desc"));
     require_either(out_extremities, out_count, "out_extremities and out_count");
-    const Core& core = *shared;
-    const Extremities found = with_progress(desc.progress, [&] { return search(shared, desc); });
+    const surface::Core& core = *shared;
+    const field::Extremities found = with_progress(desc.progress, [&] { return search(shared, desc); });
     const std::uint32_t count = static_cast<std::uint32_t>(found.points.size());
     write_count(out_count, count);
     check_capacity(out_extremities, capacity, count, "capacity");
     const double scale = core.mesh.scale;
     for (std::uint32_t i = 0; out_extremities && i < count; ++i) {
-      const Extremity& point = found.points[i];
+      const field::Extremity& point = found.points[i];
       hf_extremity& out = out_extremities[i];
-      out.vertex = given_vertex(core.mesh, point.vertex);
+      out.vertex = mesh::given_vertex(core.mesh, point.vertex);
       out.component = static_cast<std::uint32_t>(point.component);
       out.length = scale * point.length;
       put(core.mesh.to_given(core.mesh.positions[static_cast<std::size_t>(point.vertex)]), out.position);

@@ -12,7 +12,7 @@ namespace hf_inner::capi {
 namespace {
 
 // Returns the pose whose surface is a blend of clusters. Throws HF_ERROR_UNSUPPORTED or HF_ERROR_EMPTY.
-const Pose& blended_pose(const PoseStack& stack) {
+const deform::Pose& blended_pose(const deform::PoseStack& stack) {
   if (stack.has_layers())
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
          "the pose has handles on higher layers, so its surface is not a blend of clusters; use hf_deform");
@@ -26,8 +26,8 @@ const Pose& blended_pose(const PoseStack& stack) {
 }
 
 // Returns the count of clusters. If some vertices have no handle, a last cluster that never moves is counted too.
-std::uint32_t blend_clusters(const Pose& pose) noexcept {
-  const ClusterWeights& weights = *pose.weights();
+std::uint32_t blend_clusters(const deform::Pose& pose) noexcept {
+  const deform::ClusterWeights& weights = *pose.weights();
   const bool unmoved = weights.unreached_vertex_count > 0 || !pose.core().mesh.isolated.empty();
   return static_cast<std::uint32_t>(weights.cluster_count) + unmoved;
 }
@@ -38,28 +38,29 @@ void put_floats(Vec3 p, float* out) noexcept {
   out[2] = static_cast<float>(p.z);
 }
 
-Vector<Normal> rest_normals(const Pose& pose, Memory& memory) {
-  const Core& core = pose.core();
+Vector<deform::Normal> rest_normals(const deform::Pose& pose, Memory& memory) {
+  const surface::Core& core = pose.core();
   Vector<Vec3> rest(&memory);
   for (const Vec3& p : core.mesh.positions) rest.push_back(core.mesh.to_given(p));
-  Buffer<NormalSum> sums(memory, rest.size());
-  Vector<Normal> normals(rest.size(), Normal(), &memory);
-  vertex_normals(core.mesh, pose.rest(), rest.data(), sums.data(), normals.data(), *core.jobs);
+  Buffer<deform::NormalSum> sums(memory, rest.size());
+  Vector<deform::Normal> normals(rest.size(), deform::Normal(), &memory);
+  deform::vertex_normals(core.mesh, pose.rest(), rest.data(), sums.data(), normals.data(), *core.jobs);
   return normals;
 }
 
-void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
+void write_blend_rows(const deform::Pose& pose, hf_blend_rows* inout) {
   hf_blend_rows out = read_struct(inout, "inout_rows");
-  const Mesh& mesh = pose.core().mesh;
+  const mesh::Mesh& mesh = pose.core().mesh;
   Memory& memory = *pose.core().memory;
-  const GradedRows rows = graded_rows(mesh, *pose.weights(), memory);
+  const deform::GradedRows rows = deform::graded_rows(mesh, *pose.weights(), memory);
   const auto length = [&](std::int32_t inner) {
-    return inner == Mesh::none ? 1u
-                               : std::max(1u, static_cast<std::uint32_t>(rows.start[inner + 1] - rows.start[inner]));
+    return inner == mesh::Mesh::none
+               ? 1u
+               : std::max(1u, static_cast<std::uint32_t>(rows.start[inner + 1] - rows.start[inner]));
   };
   std::uint64_t entries = 0;
   out.longest_row = 0;
-  visit_given(mesh, [&](std::size_t, std::int32_t inner) {
+  mesh::visit_given(mesh, [&](std::size_t, std::int32_t inner) {
     out.longest_row = std::max(out.longest_row, length(inner));
     entries += length(inner);
   });
@@ -72,9 +73,9 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
                  "vertex_capacity");
   check_capacity(out.clusters || out.weights || out.gradients, out.entry_capacity, out.entry_count, "entry_capacity");
 
-  Vector<Normal> normals(&memory);
+  Vector<deform::Normal> normals(&memory);
   if (out.normals) normals = rest_normals(pose, memory);
-  const Crossfade* glide = pose.crossfade();
+  const deform::Crossfade* glide = pose.crossfade();
   const auto unmoved = static_cast<std::uint16_t>(blend_clusters(pose) - 1);  // the cluster that never moves
   std::size_t isolated = 0;
   std::uint32_t entry = 0;
@@ -84,8 +85,8 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
     if (out.gradients) put_floats((1 / mesh.scale) * gradient, out.gradients + 3 * std::size_t{entry});
     ++entry;
   };
-  visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
-    const bool loose = inner == Mesh::none;
+  mesh::visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
+    const bool loose = inner == mesh::Mesh::none;
     if (out.rows) {
       out.rows[2 * v] = entry;
       out.rows[2 * v + 1] = length(inner);
@@ -93,7 +94,7 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
     if (out.positions)
       put_floats(loose ? mesh.isolated[isolated].position - mesh.centre : mesh.scale * mesh.positions[inner],
                  out.positions + 3 * v);
-    if (out.normals) put_floats(loose ? Vec3{0, 0, 1} : to_vec3(normals[inner]), out.normals + 3 * v);
+    if (out.normals) put_floats(loose ? Vec3{0, 0, 1} : deform::to_vec3(normals[inner]), out.normals + 3 * v);
     for (std::size_t c = 0; c < 3 && out.offsets; ++c)
       out.offsets[3 * v + c] = loose || !glide ? 0 : glide->offset.data()[3 * static_cast<std::size_t>(inner) + c];
     isolated += loose;
@@ -111,28 +112,28 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
 struct Rounding {
   std::uint32_t total;
   double change = 0, error = 0;
-  FixedRow row;
+  deform::FixedRow row;
 };
 
 // Makes the row of an inner vertex and takes its errors. A vertex that no cluster moves has the unmoved one with
 // weight 1.
-void round_row(const Pose& pose, std::int32_t inner, std::uint32_t count, Rounding& out) {
+void round_row(const deform::Pose& pose, std::int32_t inner, std::uint32_t count, Rounding& out) {
   static constexpr float whole = 1;
-  const ClusterWeights& weights = *pose.weights();
+  const deform::ClusterWeights& weights = *pose.weights();
   const auto unmoved = static_cast<std::uint16_t>(blend_clusters(pose) - 1);  // the cluster that never moves
-  const std::int32_t first = inner == Mesh::none ? 0 : weights.start[inner],
-                     last = inner == Mesh::none ? 0 : weights.start[inner + 1];
+  const std::int32_t first = inner == mesh::Mesh::none ? 0 : weights.start[inner],
+                     last = inner == mesh::Mesh::none ? 0 : weights.start[inner + 1];
   if (first == last) {
-    fix_row({&unmoved, 1}, {&whole, 1}, count, out.total, out.row);
+    deform::fix_row({&unmoved, 1}, {&whole, 1}, count, out.total, out.row);
     return;
   }
   const std::size_t length = static_cast<std::size_t>(last - first);
-  const double change = fix_row({weights.cluster.data() + first, length}, {weights.weight.data() + first, length},
-                                count, out.total, out.row);
+  const double change = deform::fix_row({weights.cluster.data() + first, length},
+                                        {weights.weight.data() + first, length}, count, out.total, out.row);
   out.change = std::max(out.change, change);
   if (!pose.posed()) return;
   const Vec3 p = pose.core().mesh.positions[inner];
-  const Affine* const transforms = pose.cluster_transforms().data();
+  const deform::Affine* const transforms = pose.cluster_transforms().data();
   Vec3 place;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto& a = transforms[out.row.cluster[i]].a;
@@ -141,7 +142,7 @@ void round_row(const Pose& pose, std::int32_t inner, std::uint32_t count, Roundi
                                  a[1][0] * p.x + a[1][1] * p.y + a[1][2] * p.z + a[1][3],
                                  a[2][0] * p.x + a[2][1] * p.y + a[2][2] * p.z + a[2][3]};
   }
-  out.error = std::max(out.error, norm(place - blend_vertex(pose.core().mesh, weights, transforms, inner)));
+  out.error = std::max(out.error, norm(place - deform::blend_vertex(pose.core().mesh, weights, transforms, inner)));
 }
 
 template <class Number, class Value>
@@ -149,11 +150,11 @@ void put_row(std::uint32_t count, const Value* values, std::size_t vertex, Numbe
   for (std::uint32_t i = 0; i < count && out; ++i) out[vertex * count + i] = static_cast<Number>(values[i]);
 }
 
-void write_blend_influences(const Pose& pose, hf_blend_influences* inout) {
+void write_blend_influences(const deform::Pose& pose, hf_blend_influences* inout) {
   constexpr std::uint32_t standard = 8, byte_clusters = 256;
   hf_blend_influences out = read_struct(inout, "inout_influences");
-  const Mesh& mesh = pose.core().mesh;
-  const std::uint32_t count = count_of(out.influence_count, standard, 1, most_row_entries, "influence_count");
+  const mesh::Mesh& mesh = pose.core().mesh;
+  const std::uint32_t count = count_of(out.influence_count, standard, 1, deform::most_row_entries, "influence_count");
   if (out.byte_clusters && blend_clusters(pose) > byte_clusters)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
          "the blend has %u clusters; byte_clusters takes at most %u. Use clusters, which has 16 bits, or fewer handles",
@@ -164,7 +165,7 @@ void write_blend_influences(const Pose& pose, hf_blend_influences* inout) {
   check_capacity(out.clusters || out.weights || out.byte_clusters || out.byte_weights, out.vertex_capacity,
                  out.vertex_count, "vertex_capacity");
   Rounding wide{0xffff, 0, 0, {}}, narrow{0xff, 0, 0, {}};
-  visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
+  mesh::visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
     round_row(pose, inner, count, wide);
     round_row(pose, inner, count, narrow);
     put_row(count, wide.row.cluster, v, out.clusters);
@@ -179,20 +180,20 @@ void write_blend_influences(const Pose& pose, hf_blend_influences* inout) {
   write_struct(inout, out);
 }
 
-hf_blend_info blend_info(const Pose& pose) noexcept {
+hf_blend_info blend_info(const deform::Pose& pose) noexcept {
   hf_blend_info info{};
   info.cluster_count = blend_clusters(pose);
   info.revision = pose.blend_revision();
   info.offset_share = pose.crossfade_share();
   put(pose.core().mesh.centre, info.centre);
-  const BlendBox box = pose.blend_box();
+  const deform::BlendBox box = pose.blend_box();
   put(box.low, info.low);
   put(box.high, info.high);
   return info;
 }
 
-void write_blend_transforms(const Pose& pose, float* out) noexcept {
-  const Span<const Affine> moved = pose.cluster_transforms();
+void write_blend_transforms(const deform::Pose& pose, float* out) noexcept {
+  const Span<const deform::Affine> moved = pose.cluster_transforms();
   for (std::uint32_t c = 0; c < blend_clusters(pose); ++c) {
     const bool at_rest = !pose.posed() || c >= static_cast<std::uint32_t>(pose.weights()->cluster_count);
     for (int i = 0; i < 3; ++i) {
@@ -244,7 +245,7 @@ hf_result hf_pose_get_blend_transforms(hf_pose handle, std::uint32_t capacity, f
   return guarded("hf_pose_get_blend_transforms", [&] {
     const auto pose = get<PoseObject>(handle, "pose");
     const Reading reading(*pose);
-    const Pose& base = blended_pose(*pose->pose);
+    const deform::Pose& base = blended_pose(*pose->pose);
     const std::uint32_t count = blend_clusters(base);
     require_either(out_transforms, out_count, "out_transforms and out_count");
     write_count(out_count, count);

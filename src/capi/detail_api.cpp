@@ -8,8 +8,9 @@ namespace {
 
 struct DetailObject final : Object {
   static constexpr Kind kind_of = Kind::detail;
-  explicit DetailObject(CarriedDetail&& made) : Object(kind_of, made.surface->core->memory), detail(std::move(made)) {}
-  CarriedDetail detail;
+  explicit DetailObject(detail::CarriedDetail&& made)
+      : Object(kind_of, made.surface->core->memory), detail(std::move(made)) {}
+  detail::CarriedDetail detail;
 };
 
 }  // namespace
@@ -27,10 +28,10 @@ hf_result hf_detail_create(hf_region source_handle, hf_region target_handle, con
     const auto target = get<RegionObject>(target_handle, "target");
     const hf_detail_desc desc = read_optional(given, "desc");
     const Reading reading_source(*source), reading_target(*target);
-    const CarryInput input = read_carry(source->region, target->region, desc);
+    const detail::CarryInput input = detail::read_carry(source->region, target->region, desc);
     return with_progress(desc.progress, [&] {
       return make_owner_in<DetailObject>(
-          target->memory, carry_detail(source->region, target->region, input.options(), *target->memory));
+          target->memory, detail::carry_detail(source->region, target->region, input.options(), *target->memory));
     });
   });
 }
@@ -41,7 +42,7 @@ hf_result hf_detail_morph(hf_detail handle, const hf_morph_desc* given) {
   return guarded("hf_detail_morph", [&] {
     const auto object = get<DetailObject>(handle, "detail");
     const Reading reading(*object);
-    const CarriedDetail& carried = object->detail;
+    const detail::CarriedDetail& carried = object->detail;
     const MorphOut out = read_morph(given, carried.surface->core->mesh.report.vertex_count);
     write_morph(*carried.surface, *carried.state, out,
                 [&](std::size_t, std::size_t i) { return carried.position(i, out.weight); });

@@ -10,7 +10,7 @@ namespace {
 
 struct DirectionObject final : Object {
   static constexpr Kind kind_of = Kind::direction;
-  DirectionObject(const std::shared_ptr<const Core>& core, std::int32_t degree, std::uint32_t limit)
+  DirectionObject(const std::shared_ptr<const surface::Core>& core, std::int32_t degree, std::uint32_t limit)
       : Object(kind_of, core->memory), site_limit(limit), field(core, degree, limit) {}
   DirectionObject(const DirectionObject& other)
       : Object(kind_of, other.memory),
@@ -18,7 +18,7 @@ struct DirectionObject final : Object {
         field(other.field),
         site_count(other.field.count()) {}
   const std::uint32_t site_limit;
-  DirectionField field;
+  field::DirectionField field;
   std::atomic<std::uint32_t> site_count{0};  // number of constraints after the last finished change
 };
 
@@ -44,19 +44,20 @@ hf_result edit(const char* function, hf_direction handle, std::uint32_t count, c
   });
 }
 
-void solve(hf_direction handle, const hf_array_out* out_vectors, hf_solve_info* out_info) {
+void solve_directions(hf_direction handle, const hf_array_out* out_vectors, hf_solve_info* out_info) {
   const auto direction = object_of(handle);
   require(out_vectors, "out_vectors");
   if (out_info) check_struct(out_info, "out_info");
   const Reading reading(*direction);
-  const DirectionSolver& solver = direction->field.solver();
-  const Core& core = solver.core();
+  const field::DirectionSolver& solver = direction->field.solver();
+  const surface::Core& core = solver.core();
   const Rows out = need_reals(out_vectors, 3, core.mesh.report.vertex_count, "vertices", "out_vectors");
   Vector<Vec3> field(static_cast<std::size_t>(core.size()), direction->memory.get());
   direction->field.solve(field.data());
   write_vertices(core, 3, out, nullptr, [&](std::size_t v, double* values) { put(field[v], values); });
   if (out_info)
-    write_struct(out_info, unreached_by(*core.geometry, [&](std::int32_t c) { return solver.constraint_count(c); }));
+    write_struct(out_info,
+                 field::unreached_by(*core.geometry, [&](std::int32_t c) { return solver.constraint_count(c); }));
 }
 
 }  // namespace
@@ -69,11 +70,11 @@ extern "C" {
 
 hf_result hf_direction_create(hf_surface surface, const hf_direction_desc* given, hf_direction* out_direction) {
   return create("hf_direction_create", out_direction, "out_direction", [&] {
-    const std::shared_ptr<const Core> core = unlinked_core(surface, "a direction field");
+    const std::shared_ptr<const surface::Core> core = unlinked_core(surface, "a direction field");
     const hf_direction_desc desc = read_optional(given, "desc");
-    const std::int32_t degree = read_degree(desc);
+    const std::int32_t degree = field::read_degree(desc);
     return with_progress(desc.progress, [&] {
-      auto made = make_owner_in<DirectionObject>(core->memory, core, degree, read_site_limit(desc.site_limit));
+      auto made = make_owner_in<DirectionObject>(core->memory, core, degree, field::read_site_limit(desc.site_limit));
       report(1);
       return made;
     });
@@ -89,30 +90,30 @@ void hf_direction_destroy(hf_direction direction) { destroy<DirectionObject>(dir
 hf_result hf_direction_add_sites(hf_direction handle, uint32_t site_count, const uint32_t* vertices,
                                  const double* vectors, uint32_t* out_sites) {
   return edit("hf_direction_add_sites", handle, site_count, vertices, "vertices", vectors, "vectors",
-              [&](DirectionField& field) { field.add(site_count, vertices, vectors, out_sites); });
+              [&](field::DirectionField& field) { field.add(site_count, vertices, vectors, out_sites); });
 }
 
 hf_result hf_direction_remove_sites(hf_direction handle, uint32_t site_count, const uint32_t* sites) {
   return edit("hf_direction_remove_sites", handle, site_count, sites, "sites", nullptr, nullptr,
-              [&](DirectionField& field) { field.remove(site_count, sites); });
+              [&](field::DirectionField& field) { field.remove(site_count, sites); });
 }
 
 hf_result hf_direction_move_sites(hf_direction handle, uint32_t site_count, const uint32_t* sites,
                                   const uint32_t* vertices) {
   return edit("hf_direction_move_sites", handle, site_count, sites, "sites", vertices, "vertices",
-              [&](DirectionField& field) { field.move(site_count, sites, vertices); });
+              [&](field::DirectionField& field) { field.move(site_count, sites, vertices); });
 }
 
 hf_result hf_direction_set_vectors(hf_direction handle, uint32_t site_count, const uint32_t* sites,
                                    const double* vectors) {
   return edit("hf_direction_set_vectors", handle, site_count, sites, "sites", vectors, "vectors",
-              [&](DirectionField& field) { field.set_vectors(site_count, sites, vectors); });
+              [&](field::DirectionField& field) { field.set_vectors(site_count, sites, vectors); });
 }
 
 hf_result hf_direction_rotate_sites(hf_direction handle, uint32_t site_count, const uint32_t* sites,
                                     const double* angles) {
   return edit("hf_direction_rotate_sites", handle, site_count, sites, "sites", angles, "angles",
-              [&](DirectionField& field) { field.rotate(site_count, sites, angles); });
+              [&](field::DirectionField& field) { field.rotate(site_count, sites, angles); });
 }
 
 uint32_t hf_direction_get_site_count(hf_direction direction) {
@@ -129,9 +130,9 @@ hf_result hf_direction_get_sites(hf_direction handle, uint32_t capacity, uint32_
     if (!given && !out_count) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "all arrays and out_count are NULL");
     check_capacity(given, capacity, direction->field.count(), "capacity");
     std::size_t at = 0;
-    const Span<const DirectionConstraint> constraints = direction->field.constraints();
+    const Span<const field::DirectionConstraint> constraints = direction->field.constraints();
     for (std::size_t s = 0; given && s < constraints.size(); ++s) {
-      const DirectionConstraint& c = constraints[s];
+      const field::DirectionConstraint& c = constraints[s];
       if (c.vertex < 0) continue;
       if (out_sites) out_sites[at] = static_cast<std::uint32_t>(s);
       if (out_vertices) out_vertices[at] = c.given_vertex;
@@ -142,7 +143,7 @@ hf_result hf_direction_get_sites(hf_direction handle, uint32_t capacity, uint32_
 }
 
 hf_result hf_direction_solve(hf_direction direction, const hf_array_out* out_vectors, hf_solve_info* out_info) {
-  return guarded("hf_direction_solve", [&] { solve(direction, out_vectors, out_info); });
+  return guarded("hf_direction_solve", [&] { solve_directions(direction, out_vectors, out_info); });
 }
 
 hf_result hf_direction_get_singularities(hf_direction handle, uint32_t capacity, hf_singularity* out_singularities,
@@ -151,15 +152,15 @@ hf_result hf_direction_get_singularities(hf_direction handle, uint32_t capacity,
     const auto direction = object_of(handle);
     require_either(out_singularities, out_count, "out_singularities and out_count");
     const Reading reading(*direction);
-    const Mesh& mesh = direction->field.solver().core().mesh;
-    const Vector<Singularity> found = direction->field.singularities();
+    const mesh::Mesh& mesh = direction->field.solver().core().mesh;
+    const Vector<field::Singularity> found = direction->field.singularities();
     write_count(out_count, found.size());
     check_capacity(out_singularities, capacity, found.size(), "capacity");
     if (!out_singularities) return;
-    const Vector<std::uint32_t> triangle = given_triangles(mesh, *direction->memory);
+    const Vector<std::uint32_t> triangle = mesh::given_triangles(mesh, *direction->memory);
     for (std::size_t i = 0; i < found.size(); ++i)
       out_singularities[i] = {triangle[static_cast<std::size_t>(found[i].triangle)],
-                              given_vertex(mesh, found[i].vertex), found[i].index};
+                              mesh::given_vertex(mesh, found[i].vertex), found[i].index};
   });
 }
 
@@ -168,8 +169,8 @@ hf_result hf_direction_get_statistics(hf_direction handle, hf_direction_statisti
     const auto direction = object_of(handle);
     check_struct(out_statistics, "out_statistics");
     const Reading reading(*direction);
-    const DirectionSolver& solver = direction->field.solver();
-    const DirectionCounters counters = solver.counters();
+    const field::DirectionSolver& solver = direction->field.solver();
+    const field::DirectionCounters counters = solver.counters();
     hf_direction_statistics statistics{};
     statistics.unknown_count = static_cast<std::uint32_t>(solver.matrix().size());
     statistics.site_count = direction->field.count();

@@ -9,15 +9,15 @@ extern "C" {
 hf_result hf_surface_create_graph(const hf_graph_desc* given, hf_surface* out_surface) {
   return create("hf_surface_create_graph", out_surface, "out_surface", [&] {
     const hf_graph_desc desc = read_struct(given, "desc");
-    const hf_surface_desc common = options_of(desc);
-    hf_surface_info info = read_info(common);
+    const hf_surface_desc common = surface::options_of(desc);
+    hf_surface_info info = surface::read_info(common);
     info.operator_kind = HF_OPERATOR_GRAPH;
     info.edge_count = desc.edges.count;
     info.edge_limit = desc.edge_limit;
-    check_graph_limits(info);
-    const GraphInput input = read_graph(desc);
+    surface::check_graph_limits(info);
+    const mesh::GraphInput input = mesh::read_graph(desc);
     return make_surface(common, info, [&](const std::shared_ptr<Memory>& memory, std::shared_ptr<JobRunner> jobs) {
-      return Geometry::make(input, memory, std::move(jobs));
+      return surface::Geometry::make(input, memory, std::move(jobs));
     });
   });
 }

@@ -14,16 +14,17 @@ struct MorphOut : PointsOut {
 
 inline MorphOut read_morph(const hf_morph_desc* given, std::size_t vertex_count) {
   const hf_morph_desc desc = read_struct(given, "desc");
-  const double weight = read_morph_weight(desc);
+  const double weight = detail::read_morph_weight(desc);
   return {read_points_out(desc, vertex_count), weight};
 }
 
 // moved(given, i) returns the morphed position of the i-th vertex inside the region; `given` is its number in the mesh
 // as the caller passed it. Throws as Overflow.
 template <class Moved>
-void write_morph(const RegionSurface& surface, const RegionState& state, const MorphOut& out, Moved&& moved) {
-  const Core& core = *surface.core;
-  const RegionShape& shape = *state.shape;
+void write_morph(const detail::RegionSurface& surface, const detail::RegionState& state, const MorphOut& out,
+                 Moved&& moved) {
+  const surface::Core& core = *surface.core;
+  const detail::RegionShape& shape = *state.shape;
   Vector<Vec3> normal_sums(core.memory.get());
   if (out.normals) {
     Vector<Vec3> local(core.memory.get());
@@ -33,12 +34,12 @@ void write_morph(const RegionSurface& surface, const RegionState& state, const M
           moved(static_cast<std::size_t>(core.mesh.given_of_inner[static_cast<std::size_t>(shape.inside[i])]), i));
     for (Vec3& p : local) p = core.mesh.to_inner(p);
     for (const std::int32_t v : shape.rim) local.push_back(surface.scaled_position(v));
-    normal_sums = local_normal_sums(state, local, *core.memory);
+    normal_sums = detail::local_normal_sums(state, local, *core.memory);
   }
   Overflow overflow(out.positions.is_double());
   for_each_given(core, 0, surface.positions.size(), [&](std::size_t v, std::int32_t inner) {
     double row[3];
-    const std::int32_t local = inner == Mesh::none ? -1 : shape.local[static_cast<std::size_t>(inner)];
+    const std::int32_t local = inner == mesh::Mesh::none ? -1 : shape.local[static_cast<std::size_t>(inner)];
     const std::size_t i = static_cast<std::size_t>(local);
     if (out.positions) {
       put(local >= 0 && i < shape.inside.size() ? moved(v, i) : surface.positions[v], row);
@@ -48,9 +49,9 @@ void write_morph(const RegionSurface& surface, const RegionState& state, const M
       }
     }
     if (out.normals) {
-      put(inner == Mesh::none
+      put(inner == mesh::Mesh::none
               ? Vec3{0, 0, 1}
-              : unit_normal(local >= 0 ? normal_sums[i] : surface.normal_sum[static_cast<std::size_t>(inner)]),
+              : detail::unit_normal(local >= 0 ? normal_sums[i] : surface.normal_sum[static_cast<std::size_t>(inner)]),
           row);
       for (std::size_t c = 0; c < 3; ++c) out.normals.set(v, c, row[c]);
     }

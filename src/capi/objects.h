@@ -6,11 +6,11 @@
 #include "base/progress.h"
 #include "capi/boundary.h"
 #include "capi/handle_table.h"
-#include "engine/edited_core.h"
-#include "engine/surface.h"
 #include "field/intake.h"
 #include "hf/surface.h"
 #include "mesh/places.h"
+#include "surface/edited_core.h"
+#include "surface/surface.h"
 
 namespace hf_inner::capi {
 
@@ -45,18 +45,19 @@ auto with_progress(hf_progress handle, Work&& work) {
 
 struct SurfaceObject final : Object {
   static constexpr Kind kind_of = Kind::surface;
-  SurfaceObject(std::shared_ptr<const Geometry> geometry, const CoreOptions& options, const hf_surface_info& given)
+  SurfaceObject(std::shared_ptr<const surface::Geometry> geometry, const surface::CoreOptions& options,
+                const hf_surface_info& given)
       : Object(kind_of, geometry->memory), surface(std::move(geometry), options), info(given) {}
   // A surface edited from another one.
-  SurfaceObject(std::shared_ptr<const Surface> from, SurfaceEdit edit, const hf_surface_info& given)
+  SurfaceObject(std::shared_ptr<const surface::Surface> from, surface::SurfaceEdit edit, const hf_surface_info& given)
       : Object(kind_of, from->geometry().memory),
         surface(std::move(from), std::move(edit)),
         info(counted(given, surface.geometry().mesh.report)) {}
-  const Surface surface;
+  const surface::Surface surface;
   const hf_surface_info info;
 
  private:
-  static hf_surface_info counted(hf_surface_info info, const MeshReport& report) noexcept {
+  static hf_surface_info counted(hf_surface_info info, const mesh::MeshReport& report) noexcept {
     info.vertex_count = report.vertex_count;
     info.triangle_count = report.triangle_count;
     return info;
@@ -68,32 +69,33 @@ struct SurfaceObject final : Object {
 inline std::shared_ptr<SurfaceObject> mesh_surface(hf_surface handle, const char* purpose, const char* name = "surface",
                                                    std::uint32_t index = HF_NO_INDEX) {
   std::shared_ptr<SurfaceObject> object = get<SurfaceObject>(handle, name, index);
-  require_triangles(object->surface.geometry().mesh, purpose, index);
+  mesh::require_triangles(object->surface.geometry().mesh, purpose, index);
   return object;
 }
 
 // Returns the harmonic core (operator and factor) of such a surface, with its links. Poses are built on this core,
 // transfers on that without edits.
-inline std::shared_ptr<const Core> harmonic_core(hf_surface handle, const char* purpose, const char* name = "surface",
-                                                 std::uint32_t index = HF_NO_INDEX) {
-  return mesh_surface(handle, purpose, name, index)->surface.core(FieldKind::harmonic);
+inline std::shared_ptr<const surface::Core> harmonic_core(hf_surface handle, const char* purpose,
+                                                          const char* name = "surface",
+                                                          std::uint32_t index = HF_NO_INDEX) {
+  return mesh_surface(handle, purpose, name, index)->surface.core(mesh::FieldKind::harmonic);
 }
 
 // The harmonic core with links, without edits.
-inline std::shared_ptr<const Core> unedited_core(hf_surface handle, const char* name, std::uint32_t index) {
-  return mesh_surface(handle, "a transfer", name, index)->surface.unedited().core(FieldKind::harmonic);
+inline std::shared_ptr<const surface::Core> unedited_core(hf_surface handle, const char* name, std::uint32_t index) {
+  return mesh_surface(handle, "a transfer", name, index)->surface.unedited().core(mesh::FieldKind::harmonic);
 }
 
 // The same without links, for what works on triangles: directions, distances, extremities and quads.
-inline std::shared_ptr<const Core> unlinked_core(hf_surface handle, const char* purpose) {
+inline std::shared_ptr<const surface::Core> unlinked_core(hf_surface handle, const char* purpose) {
   return mesh_surface(handle, purpose)->surface.unlinked_core();
 }
 
 struct SolverObject final : Object {
   static constexpr Kind kind_of = Kind::solver;
   // engine: as ScalarField takes it.
-  SolverObject(std::shared_ptr<const Core> core, const SolverOptions& options,
-               std::shared_ptr<SiteSolver> engine = nullptr)
+  SolverObject(std::shared_ptr<const surface::Core> core, const field::SolverOptions& options,
+               std::shared_ptr<solve::SiteSolver> engine = nullptr)
       : Object(kind_of, core->memory),
         site_limit(options.site_limit),
         field(std::move(core), options.channels, site_limit, std::move(engine)) {}
@@ -103,7 +105,7 @@ struct SolverObject final : Object {
         field(other.field),
         site_count(other.field.sites().count()) {}
   const std::uint32_t site_limit;
-  ScalarField field;
+  field::ScalarField field;
   // The site count after the last finished change. Another thread may read it while a change runs.
   std::atomic<std::uint32_t> site_count{0};
 };

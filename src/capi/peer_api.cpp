@@ -16,9 +16,9 @@ namespace {
 template <class Make>
 std::shared_ptr<SolverObject> make_solver(hf_surface handle, const hf_solver_desc& desc, Make&& make) {
   const auto surface = get<SurfaceObject>(handle, "surface");
-  const SolverOptions options = read_solver_options(desc);
+  const field::SolverOptions options = field::read_solver_options(desc);
   return with_progress(desc.progress, [&] {
-    const std::shared_ptr<const Core> core = surface->surface.core(options.field_kind);
+    const std::shared_ptr<const surface::Core> core = surface->surface.core(options.field_kind);
     return make_owner_in<SolverObject>(surface->memory, core, options, make(core));
   });
 }
@@ -35,34 +35,35 @@ hf_result hf_peer_updown_create(hf_surface surface, const hf_solver_desc* desc, 
   return create("hf_peer_updown_create", out_solver, "out_solver", [&] {
     get<SurfaceObject>(surface, "surface");
     const hf_solver_desc given = read_optional(desc, "desc");
-    const double weight = read_penalty(penalty);
-    require_updown();
-    return make_solver(surface, given,
-                       [&](std::shared_ptr<const Core> core) { return make_updown_solver(std::move(core), weight); });
+    const double weight = peers::read_penalty(penalty);
+    peers::require_updown();
+    return make_solver(surface, given, [&](std::shared_ptr<const surface::Core> core) {
+      return peers::make_updown_solver(std::move(core), weight);
+    });
   });
 }
 
 hf_result hf_peer_refactor_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver) {
   return create("hf_peer_refactor_create", out_solver, "out_solver", [&] {
     get<SurfaceObject>(surface, "surface");
-    return make_solver(surface, read_optional(desc, "desc"), [&](const std::shared_ptr<const Core>& core) {
-      return make_owner_in<RefactorSolver>(core->memory, core);
+    return make_solver(surface, read_optional(desc, "desc"), [&](const std::shared_ptr<const surface::Core>& core) {
+      return make_owner_in<peers::RefactorSolver>(core->memory, core);
     });
   });
 }
 
 hf_result hf_peer_pose_create(hf_surface surface, const hf_pose_desc* desc, uint32_t rim_site_count,
                               hf_pose* out_pose) {
-  PoseOptions options;
+  deform::PoseOptions options;
   options.rim_site_count = rim_site_count;
-  options.scheme = paper_scheme();
+  options.scheme = peers::paper_scheme();
   return create_pose("hf_peer_pose_create", surface, desc, options, out_pose);
 }
 
 hf_result hf_peer_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                                   hf_transfer* out_transfer) {
-  TransferOptions options;
-  options.scheme = paper_clusters();
+  transfer::TransferOptions options;
+  options.scheme = peers::paper_clusters();
   return create_transfer("hf_peer_transfer_create", source, target, desc, options, out_transfer);
 }
 

@@ -11,22 +11,23 @@ namespace {
 
 struct QuadsObject final : Object {
   static constexpr Kind kind_of = Kind::quads;
-  QuadsObject(std::shared_ptr<const Core> shared, QuadResult&& made, double length)
+  QuadsObject(std::shared_ptr<const surface::Core> shared, quads::QuadResult&& made, double length)
       : Object(kind_of, shared->memory), core(std::move(shared)), result(std::move(made)), edge_length(length) {}
-  std::shared_ptr<const Core> core;  // outlives the result, which lies in its memory
-  QuadResult result;
+  std::shared_ptr<const surface::Core> core;  // outlives the result, which lies in its memory
+  quads::QuadResult result;
   double edge_length;
-  QuadKeeper kept;  // by updates
+  quads::QuadKeeper kept;  // by updates
 };
 
 struct FlowObject final : Object {
   static constexpr Kind kind_of = Kind::flow;
-  explicit FlowObject(std::shared_ptr<const Core> core) : Object(kind_of, core->memory), tracer(std::move(core)) {}
-  FlowTracer tracer;
+  explicit FlowObject(std::shared_ptr<const surface::Core> core)
+      : Object(kind_of, core->memory), tracer(std::move(core)) {}
+  remesh::FlowTracer tracer;
 };
 
 hf_quads_info info_of(const QuadsObject& object) {
-  const QuadResult& result = object.result;
+  const quads::QuadResult& result = object.result;
   hf_quads_info info{};
   info.vertex_count = static_cast<std::uint32_t>(result.mesh.position.size());
   info.face_count = static_cast<std::uint32_t>(result.mesh.face_count());
@@ -45,13 +46,13 @@ extern "C" {
 
 hf_result hf_quads_create(hf_surface handle, const hf_quads_desc* given, hf_quads* out_quads) {
   return create("hf_quads_create", out_quads, "out_quads", [&] {
-    const std::shared_ptr<const Core> core = unlinked_core(handle, "quads");
+    const std::shared_ptr<const surface::Core> core = unlinked_core(handle, "quads");
     const hf_quads_desc desc = read_optional(given, "desc");
-    QuadLists lists(*core->memory);
-    const FieldQuadOptions options = read_field_quad_options(core, desc, lists);
+    quads::QuadLists lists(*core->memory);
+    const quads::FieldQuadOptions options = quads::read_field_quad_options(core, desc, lists);
     return with_progress(desc.progress, [&] {
-      FieldQuadReport report;
-      QuadResult result = make_field_quads(options, &report);
+      quads::FieldQuadReport report;
+      quads::QuadResult result = quads::make_field_quads(options, &report);
       return make_owner_in<QuadsObject>(core->memory, core, std::move(result), report.edge_length * core->mesh.scale);
     });
   });
@@ -62,12 +63,12 @@ hf_result hf_quads_update(hf_quads handle, const hf_quads_desc* given) {
     const auto object = get<QuadsObject>(handle, "quads");
     const hf_quads_desc desc = read_struct(given, "desc");
     const Changing changing(*object);
-    const Core& core = *object->core;
-    QuadLists lists(*core.memory);
-    const FieldQuadOptions options = read_field_quad_options(object->core, desc, lists);
+    const surface::Core& core = *object->core;
+    quads::QuadLists lists(*core.memory);
+    const quads::FieldQuadOptions options = quads::read_field_quad_options(object->core, desc, lists);
     with_progress(desc.progress, [&] {
-      FieldQuadReport report;
-      object->result = make_field_quads(options, &report, &object->kept);
+      quads::FieldQuadReport report;
+      object->result = quads::make_field_quads(options, &report, &object->kept);
       object->edge_length = report.edge_length * core.mesh.scale;
     });
   });
@@ -103,7 +104,7 @@ hf_result hf_quads_get_mesh(hf_quads handle, hf_quads_mesh* inout_mesh) {
 
 hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow) {
   return create("hf_flow_create", out_flow, "out_flow", [&] {
-    const std::shared_ptr<const Core> core = unlinked_core(surface, "streamlines");
+    const std::shared_ptr<const surface::Core> core = unlinked_core(surface, "streamlines");
     return make_owner_in<FlowObject>(core->memory, core);
   });
 }
@@ -116,11 +117,11 @@ hf_result hf_flow_trace(hf_flow handle, const hf_array* given, hf_streamlines* i
     hf_streamlines out = read_struct(inout_lines, "inout_lines");
     require_zero(out.reserved);
     const Reading reading(*object);
-    const Core& core = object->tracer.core();
-    const Vector<std::int32_t> seeds = read_seeds(core.mesh, out, *core.memory);
-    const Vector<double> field = read_scalars(*core.geometry, given);
-    require_values(core.mesh, field);
-    const StreamlineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
+    const surface::Core& core = object->tracer.core();
+    const Vector<std::int32_t> seeds = remesh::read_seeds(core.mesh, out, *core.memory);
+    const Vector<double> field = field::read_scalars(*core.geometry, given);
+    field::require_values(core.mesh, field);
+    const remesh::StreamlineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
     out.point_count = static_cast<std::uint32_t>(lines.point.size());
     out.line_count = static_cast<std::uint32_t>(lines.from.size());
     write_struct(inout_lines, out);

@@ -29,11 +29,13 @@ hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_re
   return create("hf_region_create", out_region, "out_region", [&] {
     const auto surface = mesh_surface(handle, "a region");
     const hf_region_desc desc = read_optional(given, "desc");
-    const RegionOptions options = read_region_options(desc, surface->surface.geometry().mesh.report.vertex_count);
+    const detail::RegionOptions options =
+        detail::read_region_options(desc, surface->surface.geometry().mesh.report.vertex_count);
     return with_progress(desc.progress, [&] {
       const auto core = surface->surface.unedited().core(options.field_kind);
       return make_owner_in<RegionObject>(
-          core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, options.positions)));
+          core->memory,
+          make_owner_in<detail::RegionSurface>(core->memory, core, detail::positions_of(*core, options.positions)));
     });
   });
 }
@@ -49,9 +51,9 @@ hf_result hf_region_edit(hf_region handle, const hf_region_edit_desc* given) {
     const auto object = get<RegionObject>(handle, "region");
     const hf_region_edit_desc desc = read_struct(given, "edit");
     const Changing changing(*object);
-    RegionEditInput input(object->memory.get());
-    if (desc.curve) read_curve(object->region.core(), read_struct(desc.curve, "curve"), input);
-    read_region_lists(object->region.core(), desc, input);
+    detail::RegionEditInput input(object->memory.get());
+    if (desc.curve) detail::read_curve(object->region.core(), read_struct(desc.curve, "curve"), input);
+    detail::read_region_lists(object->region.core(), desc, input);
     with_progress(desc.progress, [&] { object->region.edit(input.edit); });
   });
 }
@@ -61,7 +63,7 @@ hf_result hf_region_get_info(hf_region region, hf_region_info* out_info) {
     const auto object = get<RegionObject>(region, "region");
     check_struct(out_info, "out_info");
     const Reading reading(*object);
-    const RegionState& state = *object->region.state();
+    const detail::RegionState& state = *object->region.state();
     hf_region_info info{};
     info.field_kind = static_cast<std::int32_t>(object->region.core().field_kind);
     info.vertex_count = static_cast<std::uint32_t>(state.shape->inside.size());
@@ -79,8 +81,8 @@ hf_result hf_region_get_statistics(hf_region region, hf_region_statistics* out_s
     const auto object = get<RegionObject>(region, "region");
     check_struct(out_statistics, "out_statistics");
     const Reading reading(*object);
-    const RegionState& state = *object->region.state();
-    const EngineCounters counters = state.engine->counters();
+    const detail::RegionState& state = *object->region.state();
+    const solve::EngineCounters counters = state.engine->counters();
     hf_region_statistics statistics{};
     statistics.inserted_count = state.inserted;
     statistics.removed_count = state.removed;
@@ -100,15 +102,15 @@ hf_result hf_region_get_vertices(hf_region handle, int32_t list, uint32_t capaci
     check_choice(list, 3, "list");
     require_either(out_vertices, out_count, "out_vertices and out_count");
     const Reading reading(*object);
-    const RegionShape& shape = *object->region.state()->shape;
+    const detail::RegionShape& shape = *object->region.state()->shape;
     const Vector<std::int32_t>& vertices = list == HF_REGION_INSIDE ? shape.inside
                                            : list == HF_REGION_RIM  ? shape.rim
                                                                     : shape.sites;
     write_count(out_count, vertices.size());
     check_capacity(out_vertices, capacity, vertices.size(), "capacity");
     if (!out_vertices) return;
-    const Mesh& mesh = object->region.core().mesh;
-    for (std::size_t i = 0; i < vertices.size(); ++i) out_vertices[i] = given_vertex(mesh, vertices[i]);
+    const mesh::Mesh& mesh = object->region.core().mesh;
+    for (std::size_t i = 0; i < vertices.size(); ++i) out_vertices[i] = mesh::given_vertex(mesh, vertices[i]);
     std::sort(out_vertices, out_vertices + vertices.size());
   });
 }
@@ -131,10 +133,11 @@ hf_result hf_region_morph(hf_region handle, const hf_morph_desc* given) {
     const auto object = get<RegionObject>(handle, "region");
     const MorphOut out = read_morph(given, object->region.core().mesh.report.vertex_count);
     const Reading reading(*object);
-    const RegionSurface& surface = *object->region.surface();
-    const RegionState& state = *object->region.state();
-    write_morph(surface, state, out,
-                [&](std::size_t v, std::size_t i) { return morphed(surface.positions[v], state.base[i], out.weight); });
+    const detail::RegionSurface& surface = *object->region.surface();
+    const detail::RegionState& state = *object->region.state();
+    write_morph(surface, state, out, [&](std::size_t v, std::size_t i) {
+      return detail::morphed(surface.positions[v], state.base[i], out.weight);
+    });
   });
 }
 

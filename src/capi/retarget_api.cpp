@@ -11,14 +11,14 @@ constexpr double degree_in_radians = 3.14159265358979323846 / 180;
 constexpr std::uint32_t all_left_out =
     HF_RETARGET_KEEP_RESTS | HF_RETARGET_NO_GOALS | HF_RETARGET_NO_LOCK | HF_RETARGET_NO_COPY;
 
-RetargetOptions options_of(const hf_retarget_desc& desc) {
+retarget::RetargetOptions options_of(const hf_retarget_desc& desc) {
   require_zero(desc.reserved);
   check_choice(desc.root_motion, 3, "root_motion");
   if (desc.leave_out & ~all_left_out)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "leave_out is %u; it must be a sum of HF_RETARGET_* flags",
          desc.leave_out);
-  RetargetOptions out;
-  out.root_motion = static_cast<RootMotion>(desc.root_motion);
+  retarget::RetargetOptions out;
+  out.root_motion = static_cast<retarget::RootMotion>(desc.root_motion);
   out.align_rests = !(desc.leave_out & HF_RETARGET_KEEP_RESTS);
   out.goals = !(desc.leave_out & HF_RETARGET_NO_GOALS);
   out.lock_feet = !(desc.leave_out & HF_RETARGET_NO_LOCK);
@@ -28,19 +28,19 @@ RetargetOptions options_of(const hf_retarget_desc& desc) {
   return out;
 }
 
-std::shared_ptr<const Vector<double>> rest_of(const float* given, const KnownSkeleton& skeleton,
+std::shared_ptr<const Vector<double>> rest_of(const float* given, const skeleton::KnownSkeleton& skeleton,
                                               const std::shared_ptr<Memory>& memory) {
   if (!given) return nullptr;
   return make_owner_in<Vector<double>>(memory, given, given + 10 * std::size_t{skeleton.input.joint_count},
                                        memory.get());
 }
 
-std::shared_ptr<const KnownSkeleton> skeleton_of(hf_skeleton handle, const char* name) {
+std::shared_ptr<const skeleton::KnownSkeleton> skeleton_of(hf_skeleton handle, const char* name) {
   return get<SkeletonObject>(handle, name)->skeleton;
 }
 
 hf_retarget_info info_of(const RetargetObject& object) {
-  const RetargetReport& report = object.retarget.report();
+  const retarget::RetargetReport& report = object.retarget.report();
   hf_retarget_info info{};
   info.source_joint_count = object.parts.source->input.joint_count;
   info.target_joint_count = object.parts.target->input.joint_count;
@@ -158,8 +158,8 @@ hf_result hf_skeleton_get_ground_velocity(hf_skeleton handle, uint32_t frame_cou
     const std::size_t numbers = std::size_t{10} * skeleton->input.joint_count * frame_count;
     const Vector<double> copy(poses, poses + numbers, skeleton->memory.get());
     double velocity[3];
-    find_ground_velocity({skeleton->input, skeleton->character, nullptr}, copy.data(), frame_count, seconds, velocity,
-                         *skeleton->memory);
+    retarget::find_ground_velocity({skeleton->input, skeleton->character, nullptr}, copy.data(), frame_count, seconds,
+                                   velocity, *skeleton->memory);
     std::copy(velocity, velocity + 3, out_velocity);
   });
 }

@@ -17,7 +17,7 @@ void write_point(Vec3 v, double* out) {
 
 void add(Vector<char>& text, const char* words) { text.insert(text.end(), words, words + std::strlen(words)); }
 
-Vector<char> reasons_of(const Character& character, Memory& memory) {
+Vector<char> reasons_of(const skeleton::Character& character, Memory& memory) {
   Vector<char> out(&memory);
   const auto axis = [&](const char* name, const Vector<char>& why) {
     if (why.empty()) return;
@@ -48,7 +48,7 @@ hf_result hf_skeleton_create(const hf_skeleton_desc* given, hf_skeleton* out_ske
     return with_progress(desc.progress, [&] {
       const auto memory = make_memory(desc.allocator, 0);
       return make_owner_in<SkeletonObject>(
-          memory, make_owner_in<KnownSkeleton>(memory, desc, desc.skin ? &skin : nullptr, memory));
+          memory, make_owner_in<skeleton::KnownSkeleton>(memory, desc, desc.skin ? &skin : nullptr, memory));
     });
   });
 }
@@ -59,7 +59,7 @@ hf_result hf_skeleton_get_info(hf_skeleton handle, hf_skeleton_info* out_info) {
   return guarded("hf_skeleton_get_info", [&] {
     const auto object = get<SkeletonObject>(handle, "skeleton");
     check_struct(out_info, "out_info");
-    const Character& character = object->skeleton->character;
+    const skeleton::Character& character = object->skeleton->character;
     hf_skeleton_info info{};
     info.joint_count = object->skeleton->input.joint_count;
     info.chain_count = static_cast<std::uint32_t>(character.chains.size());
@@ -84,7 +84,7 @@ hf_result hf_skeleton_get_joints(hf_skeleton handle, uint32_t capacity, hf_joint
   return guarded("hf_skeleton_get_joints", [&] {
     const auto object = get<SkeletonObject>(handle, "skeleton");
     if (!out_joints) require(out_count, "out_joints and out_count");
-    const Character& character = object->skeleton->character;
+    const skeleton::Character& character = object->skeleton->character;
     write_count(out_count, character.kinds.size());
     check_capacity(out_joints, capacity, character.kinds.size(), "capacity");
     for (std::size_t j = 0; out_joints && j < character.kinds.size(); ++j)
@@ -102,7 +102,7 @@ hf_result hf_skeleton_get_chains(hf_skeleton handle, uint32_t capacity, hf_chain
     write_count(out_count, chains.size());
     check_capacity(out_chains, capacity, chains.size(), "capacity");
     for (std::size_t c = 0; out_chains && c < chains.size(); ++c) {
-      const Chain& chain = chains[c];
+      const skeleton::Chain& chain = chains[c];
       out_chains[c] = {static_cast<std::int32_t>(chain.role),
                        static_cast<std::int32_t>(chain.side),
                        chain.number,

@@ -9,18 +9,19 @@ namespace hf_inner::capi {
 
 struct SkeletonObject final : Object {
   static constexpr Kind kind_of = Kind::skeleton;
-  explicit SkeletonObject(std::shared_ptr<const KnownSkeleton> known)
+  explicit SkeletonObject(std::shared_ptr<const skeleton::KnownSkeleton> known)
       : Object(kind_of, known->memory), skeleton(std::move(known)) {}
-  const std::shared_ptr<const KnownSkeleton> skeleton;
+  const std::shared_ptr<const skeleton::KnownSkeleton> skeleton;
 };
 
 // The data of a retarget. Copies share it.
 struct RetargetParts {
-  std::shared_ptr<const KnownSkeleton> source, target;
-  RetargetOptions options;
+  std::shared_ptr<const skeleton::KnownSkeleton> source, target;
+  retarget::RetargetOptions options;
   std::shared_ptr<const Vector<double>> source_rest, target_rest;  // null: the rest of the skeleton
 
-  RetargetSide side(const KnownSkeleton& of, const std::shared_ptr<const Vector<double>>& rest) const {
+  retarget::RetargetSide side(const skeleton::KnownSkeleton& of,
+                              const std::shared_ptr<const Vector<double>>& rest) const {
     return {of.input, of.character, rest ? rest->data() : nullptr};
   }
 };
@@ -36,7 +37,7 @@ struct RetargetObject final : Object {
         target_pose(10 * std::size_t{given.target->input.joint_count}, 0.0, memory.get()) {}
   RetargetObject(const RetargetObject& other) : RetargetObject(other.parts) { retarget.copy_state(other.retarget); }
   const RetargetParts parts;
-  Retarget retarget;
+  retarget::Retarget retarget;
   Vector<double> source_pose, target_pose;  // of a frame
 };
 

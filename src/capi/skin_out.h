@@ -27,8 +27,8 @@ class SkinOut {
     check_capacity(per_joint, out_.joint_capacity, joints, "joint_capacity");
     check_capacity(out_.vertex_joints || out_.vertex_weights, out_.vertex_capacity, vertices, "vertex_capacity");
   }
-  void write_joint(std::size_t j, Vec3 pivot, const Quaternion& rotation, Vec3 place, const Quaternion& axes,
-                   Vec3 scale) const {
+  void write_joint(std::size_t j, Vec3 pivot, const deform::Quaternion& rotation, Vec3 place,
+                   const deform::Quaternion& axes, Vec3 scale) const {
     if (out_.pivots) put(pivot, out_.pivots + 3 * j);
     if (out_.translations) put(place, out_.translations + 3 * j);
     if (out_.rotations) put_quaternion(rotation, out_.rotations + 4 * j);
@@ -38,9 +38,9 @@ class SkinOut {
   // Calls weigh(inner, joints, weights) for every vertex of the caller's mesh. inner is the number of its welded
   // vertex, or Mesh::none for an isolated vertex.
   template <class Weigh>
-  void write_vertices(const Mesh& mesh, Weigh&& weigh) const {
+  void write_vertices(const mesh::Mesh& mesh, Weigh&& weigh) const {
     if (!out_.vertex_joints && !out_.vertex_weights) return;
-    visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
+    mesh::visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
       std::uint32_t joints[8] = {0};
       float weights[8] = {0};
       weigh(inner, joints, weights);
@@ -50,7 +50,7 @@ class SkinOut {
   }
 
  private:
-  static void put_quaternion(const Quaternion& q, double* out) noexcept {
+  static void put_quaternion(const deform::Quaternion& q, double* out) noexcept {
     std::copy_n(q.coeffs().data(), 4, out);  // x y z w
   }
   hf_skin_info* inout_;

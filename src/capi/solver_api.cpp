@@ -23,7 +23,7 @@ template <class Read>
 hf_result apply(const char* function, hf_solver handle, std::uint32_t* out_sites, Read&& read) {
   return guarded(function, [&] {
     get<SolverObject>(handle, "solver");
-    FieldEdit edit;
+    field::FieldEdit edit;
     read(edit);
     change(handle, [&](SolverObject& solver) { solver.field.edit(edit, out_sites); });
   });
@@ -52,7 +52,7 @@ hf_result hf_create(hf_surface handle, const hf_solver_desc* given, hf_solver* o
   return create("hf_create", out_solver, "out_solver", [&] {
     const auto surface = get<SurfaceObject>(handle, "surface");
     const hf_solver_desc desc = read_optional(given, "desc");
-    const SolverOptions options = read_solver_options(desc);
+    const field::SolverOptions options = field::read_solver_options(desc);
     return with_progress(desc.progress, [&] {
       return make_owner_in<SolverObject>(surface->memory, surface->surface.core(options.field_kind), options);
     });
@@ -82,18 +82,18 @@ hf_result hf_solver_get_info(hf_solver handle, hf_solver_info* out_info) {
 
 hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites) {
   return apply("hf_add_sites", solver, out_sites,
-               [&](FieldEdit& edit) { read_addition(read_struct(sites, "sites"), edit); });
+               [&](field::FieldEdit& edit) { field::read_addition(read_struct(sites, "sites"), edit); });
 }
 
 hf_result hf_solver_add_site(hf_solver solver, uint32_t vertex, const double* values, uint32_t* out_site) {
-  return apply("hf_solver_add_site", solver, out_site, [&](FieldEdit& edit) {
+  return apply("hf_solver_add_site", solver, out_site, [&](field::FieldEdit& edit) {
     edit.add = {1, &vertex, nullptr, nullptr};
     edit.add_holds.values = values;
   });
 }
 
 hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites) {
-  return apply("hf_remove_sites", solver, nullptr, [&](FieldEdit& edit) {
+  return apply("hf_remove_sites", solver, nullptr, [&](field::FieldEdit& edit) {
     require_list(site_count, sites, "site_count", "sites");
     edit.remove_count = site_count;
     edit.remove_sites = sites;
@@ -102,11 +102,11 @@ hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t*
 
 hf_result hf_solver_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const hf_sites_desc* to) {
   return apply("hf_solver_move_sites", solver, nullptr,
-               [&](FieldEdit& edit) { read_move(site_count, sites, read_struct(to, "to"), edit); });
+               [&](field::FieldEdit& edit) { field::read_move(site_count, sites, read_struct(to, "to"), edit); });
 }
 
 hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* values) {
-  return apply("hf_solver_set_values", solver, nullptr, [&](FieldEdit& edit) {
+  return apply("hf_solver_set_values", solver, nullptr, [&](field::FieldEdit& edit) {
     require_list(site_count, sites, "site_count", "sites");
     require(values, "values");
     edit.set_count = site_count;
@@ -116,12 +116,12 @@ hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint
 }
 
 hf_result hf_solver_edit_sites(hf_solver solver, const hf_edit_desc* given, uint32_t* out_sites) {
-  return apply("hf_solver_edit_sites", solver, out_sites, [&](FieldEdit& edit) {
+  return apply("hf_solver_edit_sites", solver, out_sites, [&](field::FieldEdit& edit) {
     const hf_edit_desc desc = read_struct(given, "edit");
     if (desc.remove_count) require(desc.remove_sites, "remove_sites");
     edit.remove_count = desc.remove_count;
     edit.remove_sites = desc.remove_sites;
-    if (desc.move_count) read_move(desc.move_count, desc.move_sites, read_struct(desc.move_to, "to"), edit);
+    if (desc.move_count) field::read_move(desc.move_count, desc.move_sites, read_struct(desc.move_to, "to"), edit);
     if (desc.set_count) {
       require(desc.set_sites, "set_sites");
       require(desc.set_values, "set_values");
@@ -129,28 +129,28 @@ hf_result hf_solver_edit_sites(hf_solver solver, const hf_edit_desc* given, uint
     edit.set_count = desc.set_count;
     edit.set_sites = desc.set_sites;
     edit.set_values = desc.set_values;
-    if (desc.add) read_addition(read_struct(desc.add, "sites"), edit);
+    if (desc.add) field::read_addition(read_struct(desc.add, "sites"), edit);
   });
 }
 
 hf_result hf_solver_move_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                  const uint32_t* vertices) {
   return change_vectors("hf_solver_move_vectors", solver, site_count, sites, vertices, "vertices",
-                        [&](ScalarField& field) { move_vectors(field, site_count, sites, vertices); });
+                        [&](field::ScalarField& field) { field::move_vectors(field, site_count, sites, vertices); });
 }
 
 hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* angles) {
   return change_vectors("hf_solver_rotate_vectors", solver, site_count, sites, angles, "angles",
-                        [&](ScalarField& field) { rotate_vectors(field, site_count, sites, angles); });
+                        [&](field::ScalarField& field) { field::rotate_vectors(field, site_count, sites, angles); });
 }
 
 hf_result hf_solver_set_screening(hf_solver handle, const double* screening, const double* targets) {
   return guarded("hf_solver_set_screening", [&] {
     change(handle, [&](SolverObject& solver) {
-      ScreeningInput input(*solver.memory);
+      field::ScreeningInput input(*solver.memory);
       if (screening)
-        input = read_screening(solver.field.core().mesh, solver.field.sites().channels(), screening, targets,
-                               *solver.memory);
+        input = field::read_screening(solver.field.core().mesh, solver.field.sites().channels(), screening, targets,
+                                      *solver.memory);
       solver.field.set_screening(input.strength, input.target.empty() ? nullptr : input.target.data());
     });
   });
@@ -164,7 +164,7 @@ hf_result hf_solver_get_sites(hf_solver handle, hf_sites_info* inout) {
     hf_sites_info info = read_struct(inout, "inout_info");
     require_zero(info.reserved);
     const Reading reading(*solver);
-    const SiteSet& sites = solver->field.sites();
+    const solve::SiteSet& sites = solver->field.sites();
     info.count = sites.count();
     write_struct(inout, info);
     const bool given =
@@ -175,7 +175,7 @@ hf_result hf_solver_get_sites(hf_solver handle, hf_sites_info* inout) {
     if (info.flux) solver->field.site_flux(flux);
     std::size_t at = 0;
     for (std::size_t s = 0; s < sites.slots().size(); ++s) {
-      const SiteSet::Slot& slot = sites.slots()[s];
+      const solve::SiteSet::Slot& slot = sites.slots()[s];
       if (!slot.is_site()) continue;
       if (info.sites) info.sites[at] = static_cast<std::uint32_t>(s);
       if (info.vertices) info.vertices[at] = slot.given_vertex;
@@ -202,7 +202,7 @@ hf_result hf_solver_get_statistics(hf_solver handle, hf_solver_statistics* out_s
     const auto solver = get<SolverObject>(handle, "solver");
     check_struct(out_statistics, "out_statistics");
     const Reading reading(*solver);
-    const EngineCounters counters = solver->field.engine().counters();
+    const solve::EngineCounters counters = solver->field.engine().counters();
     hf_solver_statistics statistics{};
     statistics.site_count = solver->field.sites().count();
     statistics.factorisation_count = counters.factorisations - 1;  // the surface's own is not counted

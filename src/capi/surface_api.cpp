@@ -22,18 +22,20 @@ hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surfac
       polygons = read_struct(desc.faces, "faces");
       desc.faces = &polygons;
     }
-    hf_surface_info info = read_info(desc);
-    const FaceRows faces = read_faces(desc);
+    hf_surface_info info = surface::read_info(desc);
+    const mesh::FaceRows faces = mesh::read_faces(desc);
     info.face_count = faces.face_count;
     info.corner_count = faces.corner_count;
-    if (faces.face_count > 0) info.triangle_count = cut_size(faces);
-    check_mesh_limits(info);
-    const MeshInput input = read_mesh(desc, faces);
+    if (faces.face_count > 0) info.triangle_count = mesh::cut_size(faces);
+    surface::check_mesh_limits(info);
+    const mesh::MeshInput input = mesh::read_mesh(desc, faces);
     return make_surface(desc, info, [&](const std::shared_ptr<Memory>& memory, std::shared_ptr<JobRunner> jobs) {
-      auto geometry = Geometry::make(input, static_cast<OperatorKind>(info.operator_kind), memory, std::move(jobs));
-      LinksIn links(memory.get());
-      if (desc.links) read_links(read_struct(desc.links, "links"), geometry->mesh, links);
-      return links.options.mode == LinkMode::none ? geometry : Geometry::linked(std::move(geometry), links.options);
+      auto geometry =
+          surface::Geometry::make(input, static_cast<mesh::OperatorKind>(info.operator_kind), memory, std::move(jobs));
+      mesh::LinksIn links(memory.get());
+      if (desc.links) mesh::read_links(read_struct(desc.links, "links"), geometry->mesh, links);
+      return links.options.mode == mesh::LinkMode::none ? geometry
+                                                        : surface::Geometry::linked(std::move(geometry), links.options);
     });
   });
 }
@@ -52,7 +54,7 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
   return guarded("hf_surface_get_report", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
     check_struct(out_report, "out_report");
-    const MeshReport& found = object->surface.geometry().mesh_report();
+    const mesh::MeshReport& found = object->surface.geometry().mesh_report();
     hf_surface_report report{};
     report.vertex_count = found.vertex_count;
     report.triangle_count = found.triangle_count;
@@ -66,9 +68,9 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
     report.flipped_edge_count = found.flipped_edge_count;
     report.boundary_edge_count = found.boundary_edge_count;
     report.bounding_box_diagonal = found.bounding_box_diagonal;
-    const MeshReport& unlinked = object->surface.geometry().unlinked().mesh_report();
+    const mesh::MeshReport& unlinked = object->surface.geometry().unlinked().mesh_report();
     report.inside_out_count = unlinked.inside_out_count;
-    report.first_inside_out_vertex = given_vertex(object->surface.geometry().mesh, unlinked.first_inside_out);
+    report.first_inside_out_vertex = mesh::given_vertex(object->surface.geometry().mesh, unlinked.first_inside_out);
     write_struct(out_report, report);
   });
 }
@@ -77,15 +79,15 @@ hf_result hf_surface_get_mesh_statistics(hf_surface surface, hf_mesh_statistics*
   return guarded("hf_surface_get_mesh_statistics", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
     check_struct(out_statistics, "out_statistics");
-    const Core& core = object->surface.own();
-    const MeshReport& found = object->surface.geometry().mesh_report();
+    const surface::Core& core = object->surface.own();
+    const mesh::MeshReport& found = object->surface.geometry().mesh_report();
     hf_mesh_statistics statistics{};
     statistics.polygon_count = core.mesh.faces.polygon_count;
     statistics.non_planar_count = core.mesh.faces.non_planar_count;
     statistics.largest_face = core.mesh.faces.largest_size;
     statistics.negative_edge_count = found.negative_edge_count;
     statistics.changed_vertex_count = core.changed_count;
-    statistics.first_changed_vertex = given_vertex(core.mesh, core.first_changed);
+    statistics.first_changed_vertex = mesh::given_vertex(core.mesh, core.first_changed);
     statistics.smallest_angle = found.smallest_angle;
     write_struct(out_statistics, statistics);
   });
@@ -95,10 +97,10 @@ hf_result hf_surface_get_links_info(hf_surface surface, hf_links_info* out_info)
   return guarded("hf_surface_get_links_info", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
     check_struct(out_info, "out_info");
-    const Geometry& geometry = object->surface.geometry();
+    const surface::Geometry& geometry = object->surface.geometry();
     hf_links_info info{};
     info.piece_count = geometry.unlinked().mesh.report.component_count;
-    if (const Links* links = geometry.links.get()) {
+    if (const mesh::Links* links = geometry.links.get()) {
       info.link_count = static_cast<std::uint32_t>(links->links.size());
       info.light_piece_count = static_cast<std::uint32_t>(std::count(links->light.begin(), links->light.end(), 1));
       info.lone_piece_count = static_cast<std::uint32_t>(links->alone_count);
@@ -116,11 +118,12 @@ hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity, uint3
   return guarded("hf_surface_get_components", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
     require_either(out_components, out_count, "out_components and out_count");
-    const Mesh& mesh = object->surface.geometry().mesh;
+    const mesh::Mesh& mesh = object->surface.geometry().mesh;
     write_count(out_count, mesh.report.vertex_count);
     check_capacity(out_components, capacity, mesh.report.vertex_count, "capacity");
     if (!out_components) return;
-    visit_given(mesh, [&](std::size_t v, std::int32_t inner) { out_components[v] = component_of(mesh, inner); });
+    mesh::visit_given(mesh,
+                      [&](std::size_t v, std::int32_t inner) { out_components[v] = mesh::component_of(mesh, inner); });
   });
 }
 
@@ -128,8 +131,8 @@ hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statistics* o
   return guarded("hf_surface_get_statistics", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
     check_struct(out_statistics, "out_statistics");
-    const Core& core = object->surface.own();
-    const FactorStatistics& factor = core.factor->statistics();
+    const surface::Core& core = object->surface.own();
+    const factor::FactorStatistics& factor = core.factor->statistics();
     hf_surface_statistics statistics{};
     statistics.unknown_count = static_cast<std::uint32_t>(core.size());
     statistics.weld_ms = core.times.weld_ms;
@@ -154,20 +157,20 @@ hf_result hf_surface_save(hf_surface handle, int32_t field_kind, hf_progress pro
                           size_t* out_size) {
   return guarded("hf_surface_save", [&] {
     const auto object = get<SurfaceObject>(handle, "surface");
-    const FieldKind kind = read_field_kind(field_kind);
+    const mesh::FieldKind kind = surface::read_field_kind(field_kind);
     if (object->surface.is_edited())
       fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
            "the factor of an edited surface cannot be saved; save the factor of the surface before its edits, and edit "
            "again");
     with_progress(progress, [&] {
-      const std::shared_ptr<const Core> core = object->surface.core(kind);
-      const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));
+      const std::shared_ptr<const surface::Core> core = object->surface.core(kind);
+      const std::size_t size = static_cast<std::size_t>(factor::saved_factor_size(*core->factor));
       if (out_size) *out_size = size;
       require_either(out_bytes, out_size, "out_bytes and out_size");
       if (!out_bytes) return;
       check_capacity(true, capacity, size, "capacity");
-      save_factor(*core->factor, grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size}, *core->memory,
-                  *core->jobs);
+      factor::save_factor(*core->factor, surface::grounded_hash(*core), {static_cast<std::uint8_t*>(out_bytes), size},
+                          *core->memory, *core->jobs);
     });
   });
 }
@@ -176,17 +179,17 @@ hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const do
                               const hf_pick_desc* desc, hf_hit* out_hit) {
   return guarded("hf_surface_cast_ray", [&] {
     const auto object = mesh_surface(surface, "picking");
-    const Geometry& shape = object->surface.geometry();
-    const Vec3 from = read_point(origin, "origin"), along = read_direction(direction);
+    const surface::Geometry& shape = object->surface.geometry();
+    const Vec3 from = mesh::read_point(origin, "origin"), along = mesh::read_direction(direction);
     check_struct(out_hit, "out_hit");
-    const PickTarget target = read_target(shape.mesh, read_optional(desc, "desc"));
-    const RayHit found = cast_ray(target, from, along, *shape.jobs, *shape.memory);
+    const mesh::PickTarget target = mesh::read_target(shape.mesh, read_optional(desc, "desc"));
+    const mesh::RayHit found = mesh::cast_ray(target, from, along, *shape.jobs, *shape.memory);
     hf_hit hit{};
     hit.found = found.triangle != HF_NO_INDEX;
     hit.triangle = found.triangle;
-    hit.vertex = given_vertex(shape.mesh, found.vertex);
+    hit.vertex = mesh::given_vertex(shape.mesh, found.vertex);
     std::copy_n(found.weight, 3, hit.place.barycentrics);
-    for (int k = 0; k < 3; ++k) hit.place.corners[k] = given_vertex(shape.mesh, found.corner[k]);
+    for (int k = 0; k < 3; ++k) hit.place.corners[k] = mesh::given_vertex(shape.mesh, found.corner[k]);
     if (hit.found) put(found.position, hit.position);
     hit.distance = found.distance;
     write_struct(out_hit, hit);
@@ -197,12 +200,12 @@ hf_result hf_surface_find_vertex(hf_surface surface, const double* point, const 
                                  uint32_t* out_vertex, double* out_distance) {
   return guarded("hf_surface_find_vertex", [&] {
     const auto object = mesh_surface(surface, "picking");
-    const Geometry& shape = object->surface.geometry();
-    const Vec3 p = read_point(point, "point");
+    const surface::Geometry& shape = object->surface.geometry();
+    const Vec3 p = mesh::read_point(point, "point");
     require(out_vertex, "out_vertex");
-    const NearestVertex found =
-        nearest_vertex(read_target(shape.mesh, read_optional(desc, "desc")), p, *shape.jobs, *shape.memory);
-    *out_vertex = given_vertex(shape.mesh, found.vertex);
+    const mesh::NearestVertex found =
+        mesh::nearest_vertex(mesh::read_target(shape.mesh, read_optional(desc, "desc")), p, *shape.jobs, *shape.memory);
+    *out_vertex = mesh::given_vertex(shape.mesh, found.vertex);
     if (out_distance) *out_distance = found.distance;
   });
 }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "capi/objects.h"
-#include "engine/surface_intake.h"
+#include "surface/surface_intake.h"
 
 namespace hf_inner::capi {
 
@@ -12,8 +12,9 @@ namespace hf_inner::capi {
 template <class MakeGeometry>
 std::shared_ptr<SurfaceObject> make_surface(const hf_surface_desc& desc, hf_surface_info info,
                                             MakeGeometry&& make_geometry) {
-  CoreOptions options = core_options(info);
-  if (desc.saved_factor) read_saved_factor(read_struct(desc.saved_factor, "saved_factor"), desc.ordering, options);
+  surface::CoreOptions options = surface::core_options(info);
+  if (desc.saved_factor)
+    surface::read_saved_factor(read_struct(desc.saved_factor, "saved_factor"), desc.ordering, options);
   info.ordering = static_cast<std::int32_t>(options.ordering);
   return with_progress(desc.progress, [&] {
     auto memory = make_memory(desc.allocator, std::uint64_t{desc.memory_limit_mb} << 20);

@@ -9,8 +9,8 @@
 #include "base/compiler.h"
 #include "base/error.h"
 #include "base/span.h"
-#include "engine/site_solver.h"
 #include "mesh/places.h"
+#include "solve/site_solver.h"
 
 namespace hf_inner::capi {
 
@@ -30,7 +30,7 @@ void for_each_given(const Shape& core, std::size_t first, std::size_t count, Vis
   constexpr std::size_t piece = points_piece;
   core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
     const std::size_t begin = first + p * piece, end = std::min(first + count, begin + piece);
-    visit_given(core.mesh, begin, end, visit);
+    mesh::visit_given(core.mesh, begin, end, visit);
   });
 }
 
@@ -69,10 +69,10 @@ class Overflow {
 
 // A pose moves the surface up to farthest_pose box diagonals away. Parts that bend between its handles may go some
 // times as far. A larger factor would refuse float positions of meshes that fit.
-constexpr double float_room = 1e3 * farthest_pose;
+constexpr double float_room = 1e3 * mesh::farthest_pose;
 // Refuses float positions of poses of a mesh that may leave the range of floats. It is asked before the frame, since a
 // refused call changes no pose. Throws HF_ERROR_TOO_LARGE (index = an isolated vertex, or none).
-inline void require_float_positions(const Mesh& mesh) {
+inline void require_float_positions(const mesh::Mesh& mesh) {
   constexpr double most = static_cast<double>(std::numeric_limits<float>::max());
   const Vec3 c = mesh.centre;
   const double reach = std::max({std::fabs(c.x), std::fabs(c.y), std::fabs(c.z)}) + float_room * mesh.scale;
@@ -81,7 +81,7 @@ inline void require_float_positions(const Mesh& mesh) {
          "the mesh is %g wide; floats may not hold poses of it: take positions as doubles, or scale the mesh down",
          mesh.scale);
   Overflow overflow(false);
-  for (const Mesh::Isolated& entry : mesh.isolated) {
+  for (const mesh::Mesh::Isolated& entry : mesh.isolated) {
     for (const double x : {entry.position.x, entry.position.y, entry.position.z})
       overflow.look(static_cast<std::size_t>(entry.given), x);
   }
@@ -89,9 +89,9 @@ inline void require_float_positions(const Mesh& mesh) {
 }
 
 // Fills the row of an isolated vertex. A null function pointer stands for a row of zeros.
-using IsolatedRow = void (*)(const Mesh::Isolated& entry, double* values);
-inline void put_rest(const Mesh::Isolated& entry, double* values) { put(entry.position, values); }
-inline void put_up(const Mesh::Isolated&, double* values) { put({0, 0, 1}, values); }
+using IsolatedRow = void (*)(const mesh::Mesh::Isolated& entry, double* values);
+inline void put_rest(const mesh::Mesh::Isolated& entry, double* values) { put(entry.position, values); }
+inline void put_up(const mesh::Mesh::Isolated&, double* values) { put({0, 0, 1}, values); }
 
 // Writes rows of `width` numbers for the caller's vertices first .. first + count - 1. row(inner, values) fills the row
 // of a welded vertex. Row 0 of `out` is the row of vertex `first`.
@@ -99,15 +99,15 @@ template <class Shape, class Row>
 void write_range(const Shape& core, std::size_t first, std::size_t count, std::size_t width, const Rows& out,
                  IsolatedRow isolated, Row&& row) {
   for_each_given(core, first, count, [&](std::size_t v, std::int32_t inner) {
-    if (inner == Mesh::none) return;
-    double values[most_channels];
+    if (inner == mesh::Mesh::none) return;
+    double values[solve::most_channels];
     row(static_cast<std::size_t>(inner), values);
     for (std::size_t c = 0; c < width; ++c) out.set(v - first, c, values[c]);
   });
-  for (const Mesh::Isolated& entry : core.mesh.isolated) {
+  for (const mesh::Mesh::Isolated& entry : core.mesh.isolated) {
     const std::size_t v = static_cast<std::size_t>(entry.given);
     if (v < first || v >= first + count) continue;
-    double values[most_channels] = {0};
+    double values[solve::most_channels] = {0};
     if (isolated) isolated(entry, values);
     for (std::size_t c = 0; c < width; ++c) out.set(v - first, c, values[c]);
   }
@@ -121,7 +121,7 @@ void write_vertices(const Shape& core, std::size_t width, const Rows& out, Isola
 // Writes the points of all vertices. It is faster than write_vertices, because it makes no call per number. With
 // keeps_order, the welded vertices are the caller's vertices in the same order, and a plain loop suffices.
 template <class Real, class Point>
-void write_points_as(const Core& core, bool keeps_order, Span<const Point> points, const Rows& out,
+void write_points_as(const surface::Core& core, bool keeps_order, Span<const Point> points, const Rows& out,
                      IsolatedRow isolated) {
   char* const bytes = out.bytes();
   const std::size_t stride = out.stride();
@@ -142,26 +142,27 @@ void write_points_as(const Core& core, bool keeps_order, Span<const Point> point
     return;
   }
   for_each_given(core, 0, core.mesh.report.vertex_count, [&](std::size_t v, std::int32_t inner) {
-    if (inner == Mesh::none) return;
+    if (inner == mesh::Mesh::none) return;
     const Point x = points[static_cast<std::size_t>(inner)];
     write_row(v, static_cast<double>(x.x), static_cast<double>(x.y), static_cast<double>(x.z));
   });
-  for (const Mesh::Isolated& entry : core.mesh.isolated) {
+  for (const mesh::Mesh::Isolated& entry : core.mesh.isolated) {
     double values[3] = {0, 0, 0};
     isolated(entry, values);
     write_row(static_cast<std::size_t>(entry.given), values[0], values[1], values[2]);
   }
 }
 template <class Point>
-void write_points(const Core& core, bool keeps_order, Span<const Point> points, const Rows& out, IsolatedRow isolated) {
+void write_points(const surface::Core& core, bool keeps_order, Span<const Point> points, const Rows& out,
+                  IsolatedRow isolated) {
   if (out.is_double()) return write_points_as<double>(core, keeps_order, points, out, isolated);
   write_points_as<float>(core, keeps_order, points, out, isolated);
 }
 
 // Receives the field of a solver from the engine and writes it to the caller's array. Call check() at the end.
-class FieldWriter final : public FieldSink {
+class FieldWriter final : public solve::FieldSink {
  public:
-  FieldWriter(const Core& core, const Rows& out) noexcept
+  FieldWriter(const surface::Core& core, const Rows& out) noexcept
       : core_(core), out_(out.bytes()), is_double_(out.is_double()), stride_(out.stride()) {}
   void take(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) override {
     if (is_double_) return write<double>(first, count, z, row);
@@ -197,9 +198,9 @@ class FieldWriter final : public FieldSink {
       const std::size_t end = std::min(vertices, (p + std::size_t{1}) * piece);
       char* target = out_ + p * piece * stride_ + static_cast<std::size_t>(first) * sizeof(T);
       for (std::size_t v = p * piece; v < end; ++v, target += stride_) {
-        if (v + ahead < end && inner[v + ahead] != Mesh::none) HF_PREFETCH(source_of(inner[v + ahead]));
+        if (v + ahead < end && inner[v + ahead] != mesh::Mesh::none) HF_PREFETCH(source_of(inner[v + ahead]));
         T values[M > 0 ? M : 1];
-        if (inner[v] == Mesh::none) {
+        if (inner[v] == mesh::Mesh::none) {
           for (std::size_t c = 0; c < m; ++c) std::memset(target + c * sizeof(T), 0, sizeof(T));
           continue;
         }
@@ -220,7 +221,7 @@ class FieldWriter final : public FieldSink {
     });
   }
 
-  const Core& core_;
+  const surface::Core& core_;
   char* out_;
   bool is_double_;
   std::size_t stride_;

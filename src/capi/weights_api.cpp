@@ -34,13 +34,13 @@ hf_result hf_weights_create(hf_surface handle, const hf_joints_desc* given, uint
     const auto surface = mesh_surface(handle, "skin weights");
     const hf_joints_desc desc = read_struct(given, "joints");
     const std::int32_t influences = weights_per_vertex(influence_count);
-    Bones bones(*surface->memory);
-    read_first_bones(desc, bones, *surface->memory);
+    weights::Bones bones(*surface->memory);
+    weights::read_first_bones(desc, bones, *surface->memory);
     return with_progress(desc.progress, [&] {
       const auto core = skin_core(*surface);
       const ProgressRange range(progress_core, 1.0f);
-      return make_owner_in<WeightsObject>(core->memory, make_owner_in<SkinSurface>(core->memory, core), influences,
-                                          bones);
+      return make_owner_in<WeightsObject>(core->memory, make_owner_in<weights::SkinSurface>(core->memory, core),
+                                          influences, bones);
     });
   });
 }
@@ -54,9 +54,9 @@ void hf_weights_destroy(hf_weights weights) { destroy<WeightsObject>(weights); }
 hf_result hf_weights_set_joints(hf_weights handle, const hf_joints_desc* given) {
   return change("hf_weights_set_joints", handle, [&](WeightsObject& object) {
     const hf_joints_desc desc = read_struct(given, "joints");
-    Bones bones(*object.memory);
-    read_bones(desc, bones, *object.memory);
-    const Vector<Index> sources = read_sources(desc, joint_count(object), *object.memory);
+    weights::Bones bones(*object.memory);
+    weights::read_bones(desc, bones, *object.memory);
+    const Vector<Index> sources = weights::read_sources(desc, joint_count(object), *object.memory);
     with_progress(desc.progress, [&] { object.weights.set_joints(bones, sources); });
   });
 }
@@ -64,16 +64,16 @@ hf_result hf_weights_set_joints(hf_weights handle, const hf_joints_desc* given) 
 hf_result hf_weights_set_pins(hf_weights handle, const hf_pins_desc* given) {
   return change("hf_weights_set_pins", handle, [&](WeightsObject& object) {
     const hf_pins_desc desc = read_struct(given, "pins");
-    Pins pins(*object.memory);
-    read_pins(desc, object.weights.surface().core->mesh, joint_count(object), pins, *object.memory);
+    weights::Pins pins(*object.memory);
+    weights::read_pins(desc, object.weights.surface().core->mesh, joint_count(object), pins, *object.memory);
     with_progress(desc.progress, [&] { object.weights.set_pins(pins); });
   });
 }
 
 hf_result hf_weights_set_locks(hf_weights handle, uint32_t lock_count, const uint32_t* bones, const float* values) {
   return change("hf_weights_set_locks", handle, [&](WeightsObject& object) {
-    const LockInput locks =
-        read_locks(object.weights.surface().core->mesh, joint_count(object), lock_count, bones, values, *object.memory);
+    const weights::LockInput locks = weights::read_locks(object.weights.surface().core->mesh, joint_count(object),
+                                                         lock_count, bones, values, *object.memory);
     object.weights.set_locks(locks.bones, locks.values.empty() ? nullptr : locks.values.data());
   });
 }
@@ -83,7 +83,7 @@ hf_result hf_weights_get(hf_weights handle, hf_weights_out* inout) {
     const auto object = get<WeightsObject>(handle, "weights");
     check_struct(inout, "inout_weights");
     const Reading reading(*object);
-    const Mesh& mesh = object->weights.surface().core->mesh;
+    const mesh::Mesh& mesh = object->weights.surface().core->mesh;
     const hf_weights_out out = read_weights_out(inout, mesh, object->weights.influences());
     check_joints_fit(out, joint_count(*object) - 1);
     write_weights(object->weights.state(), mesh, out);
@@ -96,11 +96,11 @@ hf_result hf_weights_get_joints(hf_weights handle, uint32_t capacity, uint32_t* 
     const auto object = get<WeightsObject>(handle, "weights");
     if (!out_flags && !out_vertex_counts) require(out_count, "out_flags, out_vertex_counts and out_count");
     const Reading reading(*object);
-    const Solution& solution = *object->weights.state().solution;
+    const weights::Solution& solution = *object->weights.state().solution;
     write_count(out_count, solution.faults.size());
     check_capacity(out_flags || out_vertex_counts, capacity, solution.faults.size(), "capacity");
     for (std::size_t b = 0; b < solution.faults.size(); ++b) {
-      if (out_flags) out_flags[b] = bone_flags(solution.faults[b]);
+      if (out_flags) out_flags[b] = weights::bone_flags(solution.faults[b]);
       if (out_vertex_counts) out_vertex_counts[b] = solution.informs[b];
     }
   });
@@ -111,8 +111,8 @@ hf_result hf_weights_get_info(hf_weights handle, hf_weights_info* out_info) {
     const auto object = get<WeightsObject>(handle, "weights");
     check_struct(out_info, "out_info");
     const Reading reading(*object);
-    const WeightState& state = object->weights.state();
-    const WeightCounts& counts = state.counts;
+    const weights::WeightState& state = object->weights.state();
+    const weights::WeightCounts& counts = state.counts;
     hf_weights_info info{};
     info.vertex_count = object->weights.surface().core->mesh.report.vertex_count;
     info.joint_count = joint_count(*object);
@@ -133,13 +133,13 @@ hf_result hf_weights_get_statistics(hf_weights handle, hf_weights_statistics* ou
     const auto object = get<WeightsObject>(handle, "weights");
     check_struct(out_statistics, "out_statistics");
     const Reading reading(*object);
-    const WeightState& state = object->weights.state();
-    const WeightCounts& counts = state.counts;
+    const weights::WeightState& state = object->weights.state();
+    const weights::WeightCounts& counts = state.counts;
     hf_weights_statistics statistics{};
     statistics.nearest_piece_count = counts.pieces_carried + counts.pieces_rigid;
     statistics.rigid_piece_count = counts.pieces_rigid;
     statistics.blind = counts.blind;
-    const BoneFlagCounts bones = count_bone_flags(state.solution->faults);
+    const weights::BoneFlagCounts bones = weights::count_bone_flags(state.solution->faults);
     statistics.no_length_count = bones.no_length;
     statistics.coincident_count = bones.coincident;
     statistics.informs_none_count = bones.informs_none;

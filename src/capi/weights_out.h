@@ -12,7 +12,7 @@ inline bool wants_weights(const hf_weights_out& out) noexcept {
 }
 
 // Writes the counts, and then checks that the arrays of the caller are long enough.
-inline hf_weights_out read_weights_out(hf_weights_out* inout, const Mesh& mesh, std::int32_t influences) {
+inline hf_weights_out read_weights_out(hf_weights_out* inout, const mesh::Mesh& mesh, std::int32_t influences) {
   hf_weights_out out = read_struct(inout, "inout_weights");
   out.vertex_count = mesh.report.vertex_count;
   out.influence_count = static_cast<std::uint32_t>(influences);
@@ -30,11 +30,11 @@ inline void check_joints_fit(const hf_weights_out& out, std::uint32_t largest) {
 
 // Made: WeightState or FilledWeights.
 template <class Made>
-void write_weights(const Made& made, const Mesh& mesh, const hf_weights_out& out) {
+void write_weights(const Made& made, const mesh::Mesh& mesh, const hf_weights_out& out) {
   const std::size_t k = out.influence_count;
   std::size_t isolated = 0;
-  visit_given(mesh, [&](std::size_t v, std::int32_t welded) {
-    const bool loose = welded == Mesh::none;
+  mesh::visit_given(mesh, [&](std::size_t v, std::int32_t welded) {
+    const bool loose = welded == mesh::Mesh::none;
     const std::size_t inner = at(loose ? made.nearest_of_isolated[isolated++] : welded);
     for (std::size_t i = 0; i < k; ++i) {
       const std::uint32_t joint = made.joints[inner * k + i];
@@ -42,7 +42,7 @@ void write_weights(const Made& made, const Mesh& mesh, const hf_weights_out& out
       if (out.joints_u16) out.joints_u16[v * k + i] = static_cast<std::uint16_t>(joint);
       if (out.weights) out.weights[v * k + i] = made.weights[inner * k + i];
     }
-    if (out.origins) out.origins[v] = static_cast<std::uint8_t>(loose ? Origin::isolated : made.origin[inner]);
+    if (out.origins) out.origins[v] = static_cast<std::uint8_t>(loose ? weights::Origin::isolated : made.origin[inner]);
   });
 }
 

@@ -9,13 +9,13 @@
 namespace hf_inner::capi {
 namespace {
 
-void write_filled(const FilledWeights& filled, const Mesh& mesh, const hf_weights_out& out) {
+void write_filled(const weights::FilledWeights& filled, const mesh::Mesh& mesh, const hf_weights_out& out) {
   check_joints_fit(out, *std::max_element(filled.joints.begin(), filled.joints.end()));
   write_weights(filled, mesh, out);
 }
 
 template <class Info>
-void count_vertices(const FilledWeights& filled, Info& info) {
+void count_vertices(const weights::FilledWeights& filled, Info& info) {
   info.matched_count = filled.by_origin[HF_WEIGHTS_MATCHED];
   info.solved_count = filled.by_origin[HF_WEIGHTS_SOLVED];
   info.nearest_count = filled.by_origin[HF_WEIGHTS_NEAREST];
@@ -23,11 +23,11 @@ void count_vertices(const FilledWeights& filled, Info& info) {
   info.isolated_count = filled.by_origin[HF_WEIGHTS_ISOLATED];
 }
 
-void write_mirror_info(const MirroredWeights& made, const Mesh& mesh, hf_weights_mirror_info* out_info) {
+void write_mirror_info(const weights::MirroredWeights& made, const mesh::Mesh& mesh, hf_weights_mirror_info* out_info) {
   hf_weights_mirror_info info{};
   info.vertex_count = mesh.report.vertex_count;
   info.plane_from = static_cast<std::int32_t>(made.plane.from);
-  const BoneMisses bones = bone_misses(made.pairs, mesh.scale);
+  const weights::BoneMisses bones = weights::bone_misses(made.pairs, mesh.scale);
   info.alone_count = bones.by[HF_MIRROR_JOINT_ALONE];
   info.named_count = bones.by[HF_MIRROR_JOINT_NAMED];
   info.placed_count = bones.by[HF_MIRROR_JOINT_PLACED];
@@ -45,12 +45,12 @@ void write_mirror_info(const MirroredWeights& made, const Mesh& mesh, hf_weights
   write_struct(out_info, info);
 }
 
-void write_mirror_statistics(const MirroredWeights& made, const Mesh& mesh,
+void write_mirror_statistics(const weights::MirroredWeights& made, const mesh::Mesh& mesh,
                              hf_weights_mirror_statistics* out_statistics) {
   hf_weights_mirror_statistics statistics{};
-  const BoneMisses bones = bone_misses(made.pairs, mesh.scale);
+  const weights::BoneMisses bones = weights::bone_misses(made.pairs, mesh.scale);
   statistics.worst_joint = bones.worst_joint;
-  statistics.worst_vertex = given_vertex(mesh, made.worst);
+  statistics.worst_vertex = mesh::given_vertex(mesh, made.worst);
   statistics.joint_off = bones.mean;
   statistics.worst_joint_off = bones.worst;
   statistics.vertex_off = mesh.scale * made.mean_off;
@@ -72,13 +72,13 @@ hf_result hf_weights_get_helpers(hf_weights handle, const char* names, uint32_t 
     const auto object = get<WeightsObject>(handle, "weights");
     if (!out_reasons) require(out_count, "out_reasons and out_count");
     const Reading reading(*object);
-    const WeightState& state = object->weights.state();
-    const Bones& bones = state.inputs->bones;
+    const weights::WeightState& state = object->weights.state();
+    const weights::Bones& bones = state.inputs->bones;
     write_count(out_count, bones.head.size());
     check_capacity(out_reasons != nullptr, capacity, bones.head.size(), "capacity");
-    const Span<const char> text = read_bone_names(names, bones.head.size(), *object->memory);
+    const Span<const char> text = weights::read_bone_names(names, bones.head.size(), *object->memory);
     if (!out_reasons) return;
-    const Vector<std::uint32_t> found = helper_reasons(bones, state.solution->faults, text, *object->memory);
+    const Vector<std::uint32_t> found = weights::helper_reasons(bones, state.solution->faults, text, *object->memory);
     std::copy(found.begin(), found.end(), out_reasons);
   });
 }
@@ -90,16 +90,16 @@ hf_result hf_weights_transfer(hf_surface source, hf_surface target, const hf_wei
     const auto to = mesh_surface(target, "carried weights", "target");
     const hf_weights_transfer_desc desc = read_struct(given, "desc");
     if (out_info) check_struct(out_info, "out_info");
-    const Mesh& shape = from->surface.geometry().unlinked().mesh;
-    const MatchOptions options = read_carry(desc, shape);
-    const GivenWeights weights = read_carried(desc, shape);
+    const mesh::Mesh& shape = from->surface.geometry().unlinked().mesh;
+    const weights::MatchOptions options = weights::read_carry(desc, shape);
+    const weights::GivenWeights weights = weights::read_carried(desc, shape);
     const hf_weights_out out = read_weights_out(inout_weights, to->surface.geometry().mesh, options.influences);
     if (!wants_weights(out) && !out_info) return;
-    const FilledWeights filled = with_progress(desc.progress, [&] {
+    const weights::FilledWeights filled = with_progress(desc.progress, [&] {
       const auto core = skin_core(*to);
       const ProgressRange range(progress_core, 1.0f);
-      const SkinShape skin(shape, *to->memory);
-      return transfer_weights(shape, skin, weights, core, options, &to->surface);
+      const mesh::SkinShape skin(shape, *to->memory);
+      return weights::transfer_weights(shape, skin, weights, core, options, &to->surface);
     });
     write_filled(filled, to->surface.geometry().mesh, out);
     if (!out_info) return;
@@ -119,17 +119,17 @@ hf_result hf_weights_mirror(hf_surface handle, const hf_weights_mirror_desc* giv
     const hf_weights_mirror_desc desc = read_struct(given, "desc");
     if (out_info) check_struct(out_info, "out_info");
     if (out_statistics) check_struct(out_statistics, "out_statistics");
-    const Mesh& mesh = surface->surface.geometry().mesh;
-    const MirrorOptions options = read_mirror(desc, mesh);
-    const MirrorBones bones = read_mirror_bones(desc, mesh, *surface->memory);
-    const GivenWeights weights = read_mirrored(desc, mesh);
+    const mesh::Mesh& mesh = surface->surface.geometry().mesh;
+    const weights::MirrorOptions options = weights::read_mirror(desc, mesh);
+    const weights::MirrorBones bones = weights::read_mirror_bones(desc, mesh, *surface->memory);
+    const weights::GivenWeights weights = weights::read_mirrored(desc, mesh);
     const hf_weights_out out = read_weights_out(inout_weights, mesh, options.carry.influences);
     if (!wants_weights(out) && !out_partners && !out_pairings && !out_info && !out_statistics) return;
-    const MirroredWeights made = with_progress(desc.progress, [&] {
+    const weights::MirroredWeights made = with_progress(desc.progress, [&] {
       const auto core = skin_core(*surface);
       const ProgressRange range(progress_core, 1.0f);
-      const auto skin = make_owner_in<SkinSurface>(core->memory, core);
-      return mirror_weights(*skin, weights, bones, options, &surface->surface);
+      const auto skin = make_owner_in<weights::SkinSurface>(core->memory, core);
+      return weights::mirror_weights(*skin, weights, bones, options, &surface->surface);
     });
     write_filled(made.filled, mesh, out);
     for (std::size_t b = 0; b < made.pairs.partner.size(); ++b) {

@@ -7,7 +7,7 @@
 #include "base/compiler.h"
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // Sixteen sums hide the latency of additions: four vectors of four numbers, or eight of two.
@@ -104,4 +104,4 @@ void Anderson::step(Span<double> z, Span<const double> f, std::size_t block, dou
   for (std::size_t i = 0; i < size_; ++i) z[i] += f[i] + kept * extra[i];
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -14,7 +14,7 @@
 #include "base/span.h"
 #include "deform/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 class Anderson {
  public:
@@ -56,4 +56,4 @@ class Anderson {
   bool open_ = false;  // the last iterate and its residual belong to the present map
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // Lists the fields that count at a vertex, with their B-splines.
@@ -115,7 +115,7 @@ class Cells {
 }  // namespace
 
 void read_bands(const BandSource& source, std::int32_t first, std::int32_t last, PieceBands& out, Memory& memory) {
-  const Topology& topology = source.core.topology();
+  const mesh::Topology& topology = source.core.topology();
   out.first = first;
   out.start.reserve(static_cast<std::size_t>(last - first) + 1);
   out.slot.reserve(slots_a_vertex * static_cast<std::size_t>(last - first));
@@ -161,4 +161,4 @@ void read_bands(const BandSource& source, std::int32_t first, std::int32_t last,
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -6,7 +6,7 @@
 #pragma once
 #include "deform/bands.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // One field at one vertex.
 struct BandSlot {
@@ -39,7 +39,7 @@ struct PieceBands {
 
 // The tables from which the bands of all pieces are read.
 struct BandSource {
-  const Core& core;
+  const surface::Core& core;
   const Rest& rest;
   const Reach& reach;
   const HandleFields& fields;
@@ -65,4 +65,4 @@ inline void for_common_bands(const BandSlot& first, const BandSlot& second, Join
 // Reads the bands of the vertices [first, last).
 void read_bands(const BandSource& source, std::int32_t first, std::int32_t last, PieceBands& out, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -5,12 +5,12 @@
 #include "deform/band_patches.h"
 #include "deform/cluster_rows.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // Finds the handles' fields that are cut into level bands. With two handles in a component it is the second handle's
 // field. With more it is every field, with one none.
-Vector<FieldPart> find_parts(const Mesh& mesh, const Reach& reach, Memory& memory) {
+Vector<FieldPart> find_parts(const mesh::Mesh& mesh, const Reach& reach, Memory& memory) {
   Vector<FieldPart> parts(&memory);
   for (std::int32_t c = 0; c < mesh.component_count(); ++c) {
     const Span<const std::int32_t> present = reach.handles_of(c);
@@ -88,7 +88,7 @@ class ClusterNumbers {
   }
   // Joins the bands of a vertex with the bands of its neighbours in earlier pieces.
   void join_vertex(const PieceBands& piece, std::int32_t v) noexcept {
-    const Topology& topology = source_.core.topology();
+    const mesh::Topology& topology = source_.core.topology();
     const auto patch_at = [&](const PieceBands& at, const BandSlot& slot, int a) {
       return base_[at.first / vertex_piece] + at.patch_of[3 * (&slot - at.slot.data()) + a];
     };
@@ -145,7 +145,7 @@ class ClusterNumbers {
   Vector<std::int32_t> cluster_;   // by patch
 };
 
-void find_elastic(const Mesh& mesh, const Reach& reach, ClusterWeights& weights, Memory& memory) {
+void find_elastic(const mesh::Mesh& mesh, const Reach& reach, ClusterWeights& weights, Memory& memory) {
   Vector<std::uint8_t> elastic(mesh.component_count(), 0, &memory);
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
     // The clusters of a vertex are sorted, and the free ones (not handles) come last.
@@ -166,8 +166,8 @@ std::int32_t bands_for(std::int32_t wished, std::int32_t field_count) noexcept {
   return std::max(static_cast<std::int32_t>(least_bands), std::min(wished, fit));
 }
 
-ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
-                                    const BandOptions& options, Memory& memory) {
+ClusterWeights make_cluster_weights(const surface::Core& core, const Rest& rest, const Reach& reach,
+                                    const HandleFields& fields, const BandOptions& options, Memory& memory) {
   const std::int32_t handle_count = static_cast<std::int32_t>(fields.leak.size());
   const Vector<FieldPart> parts = find_parts(core.mesh, reach, memory);
   Vector<std::int32_t> part_start(core.mesh.component_count() + 1, 0, &memory);
@@ -197,4 +197,4 @@ ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Re
   return weights;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -15,7 +15,7 @@
 #include "deform/constants.h"
 #include "deform/levels.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct BandOptions {
   int degree = 2;
@@ -61,7 +61,7 @@ struct ClusterWeights {
   std::int32_t free_count() const noexcept { return cluster_count - handle_count; }
 };
 
-ClusterWeights make_cluster_weights(const Core& core, const Rest& rest, const Reach& reach, const HandleFields& fields,
-                                    const BandOptions& options, Memory& memory);
+ClusterWeights make_cluster_weights(const surface::Core& core, const Rest& rest, const Reach& reach,
+                                    const HandleFields& fields, const BandOptions& options, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -5,7 +5,7 @@
 #include "base/compiler.h"
 #include "deform/blend_rows.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 Quaternion blended_rotation(const ClusterWeights& weights, const Vector<Quaternion>& by_cluster,
                             std::int32_t v) noexcept {
@@ -19,7 +19,8 @@ Quaternion blended_rotation(const ClusterWeights& weights, const Vector<Quaterni
   return normalised(sum);
 }
 
-Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept {
+Vec3 blend_vertex(const mesh::Mesh& mesh, const ClusterWeights& weights, const Affine* transforms,
+                  std::int32_t v) noexcept {
   const Vec3 p = mesh.positions[v];
   const std::int32_t first = weights.start[v], last = weights.start[v + 1];
   if (first == last) return p;
@@ -50,8 +51,8 @@ void set_columns(const Affine* transforms, std::size_t count, double* columns) n
 
 }  // namespace
 
-void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, double* columns, Vec3 offset,
-           double scale, Vec3* positions, float* packed, JobRunner& jobs) {
+void blend(const mesh::Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, double* columns,
+           Vec3 offset, double scale, Vec3* positions, float* packed, JobRunner& jobs) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   set_columns(transforms, static_cast<std::size_t>(weights.cluster_count), columns);
   const BlendRows rows{weights.start.data(),
@@ -104,4 +105,4 @@ Affine to_affine(const RigidMotion& motion) noexcept {
   return affine;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -7,7 +7,7 @@
 #include "deform/bands.h"
 #include "deform/rotation.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // A row-major 3 x 4 transform: x = A (p, 1), in the unit of the scaled mesh.
 struct Affine {
@@ -28,14 +28,15 @@ void list_blocks(ClusterWeights& weights, JobRunner& jobs);
 inline std::size_t column_count(const ClusterWeights& weights) noexcept {
   return 16 * static_cast<std::size_t>(weights.cluster_count);
 }
-void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, double* columns, Vec3 offset,
-           double scale, Vec3* positions, float* packed, JobRunner& jobs);
+void blend(const mesh::Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, double* columns,
+           Vec3 offset, double scale, Vec3* positions, float* packed, JobRunner& jobs);
 
 // Returns the mean of the clusters' rotations at one vertex, by its weights.
 Quaternion blended_rotation(const ClusterWeights& weights, const Vector<Quaternion>& by_cluster,
                             std::int32_t v) noexcept;
 
 // Returns the blended position of one vertex, in the unit of the scaled mesh.
-Vec3 blend_vertex(const Mesh& mesh, const ClusterWeights& weights, const Affine* transforms, std::int32_t v) noexcept;
+Vec3 blend_vertex(const mesh::Mesh& mesh, const ClusterWeights& weights, const Affine* transforms,
+                  std::int32_t v) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

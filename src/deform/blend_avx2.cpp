@@ -6,7 +6,7 @@
 
 #include "deform/blend_rows.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 namespace {
 
@@ -95,4 +95,4 @@ void blend_rows_avx2(const BlendRows& rows, std::int32_t first, std::int32_t las
   blend_vertices(rows, v, last);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

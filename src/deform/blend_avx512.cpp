@@ -6,7 +6,7 @@
 
 #include "deform/blend_rows.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // Blends a block of eight vertices, one vertex per lane. First it sums the twelve numbers of their transforms, cluster
@@ -105,4 +105,4 @@ void blend_rows_avx512(const BlendRows& rows, std::int32_t first, std::int32_t l
   blend_vertices(rows, v, last);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

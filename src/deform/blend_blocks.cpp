@@ -3,7 +3,7 @@
 #include "deform/blend.h"
 #include "deform/rest.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 constexpr std::int32_t lanes = 8;
@@ -97,4 +97,4 @@ void list_blocks(ClusterWeights& weights, JobRunner& jobs) {
   weights.block_start = std::move(begin);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // How far floats of a shader may be outside, as a share of the largest product that a transform sums. A row of 8
@@ -52,7 +52,7 @@ double largest_product(const BlendBox& box, const Affine& transform) noexcept {
 
 }  // namespace
 
-Vector<BlendBox> cluster_boxes(const Mesh& mesh, const ClusterWeights& weights, Memory& memory) {
+Vector<BlendBox> cluster_boxes(const mesh::Mesh& mesh, const ClusterWeights& weights, Memory& memory) {
   Vector<BlendBox> boxes(static_cast<std::size_t>(weights.cluster_count) + 1, nothing(), &memory);
   const auto clusters_of = [&](std::int32_t v) {
     return Span<const std::uint16_t>(weights.cluster.data() + weights.start[v],
@@ -71,14 +71,14 @@ Vector<BlendBox> cluster_boxes(const Mesh& mesh, const ClusterWeights& weights, 
     if (own.empty()) add(run.low, run.high, boxes.back());
     run = nothing();
   }
-  for (const Mesh::Isolated& vertex : mesh.isolated) {
+  for (const mesh::Mesh::Isolated& vertex : mesh.isolated) {
     const Vec3 p = mesh.to_inner(vertex.position);
     add(p, p, boxes.back());
   }
   return boxes;
 }
 
-BlendBox blended_box(const Mesh& mesh, const ClusterWeights& weights, const Vector<BlendBox>& boxes,
+BlendBox blended_box(const mesh::Mesh& mesh, const ClusterWeights& weights, const Vector<BlendBox>& boxes,
                      const Affine* transforms) noexcept {
   BlendBox whole = boxes.back();
   const bool by_vertex = transforms && mesh.vertex_count() <= few_vertices;
@@ -101,4 +101,4 @@ BlendBox blended_box(const Mesh& mesh, const ClusterWeights& weights, const Vect
   return {whole.low - more, whole.high + more};
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -8,7 +8,7 @@
 #pragma once
 #include "deform/blend.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct BlendBox {
   Vec3 low, high;
@@ -17,11 +17,11 @@ struct BlendBox {
 
 // Returns the rest box of the vertices of each cluster. The last box holds the vertices that no cluster moves, such as
 // isolated ones. Unit: the scaled mesh. Some may be empty. Cost: one pass over the weights.
-Vector<BlendBox> cluster_boxes(const Mesh& mesh, const ClusterWeights& weights, Memory& memory);
+Vector<BlendBox> cluster_boxes(const mesh::Mesh& mesh, const ClusterWeights& weights, Memory& memory);
 
 // Returns a box that holds the blended vertices, also as a shader computes them in floats. transforms: null for
 // identities, or one per cluster.
-BlendBox blended_box(const Mesh& mesh, const ClusterWeights& weights, const Vector<BlendBox>& boxes,
+BlendBox blended_box(const mesh::Mesh& mesh, const ClusterWeights& weights, const Vector<BlendBox>& boxes,
                      const Affine* transforms) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

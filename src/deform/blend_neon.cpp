@@ -4,7 +4,7 @@
 
 #include "deform/blend_rows.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // Blends four vertices, half a block of eight, two vertices in a register. First it sums the twelve numbers of their
@@ -93,4 +93,4 @@ void blend_rows_neon(const BlendRows& rows, std::int32_t first, std::int32_t las
   blend_vertices(rows, v, last);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

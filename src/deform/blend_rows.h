@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct BlendRows {
   const std::int32_t* start;  // by vertex
@@ -26,4 +26,4 @@ void blend_rows_avx2(const BlendRows& rows, std::int32_t first, std::int32_t las
 void blend_rows_avx512(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 void blend_rows_neon(const BlendRows& rows, std::int32_t first, std::int32_t last) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

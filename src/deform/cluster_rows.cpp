@@ -5,7 +5,7 @@
 
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 struct Weight {
@@ -190,4 +190,4 @@ void write_rows(const BandSource& source, const Vector<PieceBands>& pieces,
   for (const PieceRows& own : rows) out.unreached_vertex_count += own.unreached;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

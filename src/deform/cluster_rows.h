@@ -7,11 +7,11 @@
 #pragma once
 #include "deform/band_patches.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // clusters: by piece, the cluster of each of its patches, or -1 for those that were dropped. It fills start, cluster,
 // weight and unreached_vertex_count of `out`.
 void write_rows(const BandSource& source, const Vector<PieceBands>& pieces,
                 const Vector<Span<const std::int32_t>>& clusters, ClusterWeights& out, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

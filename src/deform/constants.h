@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // ---- limits of the C ABI; intake.cpp checks them ----
 
@@ -409,4 +409,4 @@ constexpr double least_moment = 1e-300;
 // leave the skin of a bent tube the same.
 constexpr double least_vertex_area = 1e-12;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

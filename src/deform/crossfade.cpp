@@ -4,7 +4,7 @@
 
 #include "deform/rest.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 double way(const RigidMotion& from, const RigidMotion& to) noexcept {
@@ -42,4 +42,4 @@ void add_crossfade(const Crossfade& crossfade, double share, Vec3* positions, Jo
   });
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -11,7 +11,7 @@
 #include "deform/handles.h"
 #include "deform/rotation.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct Crossfade {
   Crossfade(std::size_t vertices, Memory& memory) : offset(memory, 3 * vertices), placed(&memory) {}
@@ -30,4 +30,4 @@ double share_left(const Crossfade& crossfade, Span<const RigidMotion> now) noexc
 // Adds share times D_v to the vertices.
 void add_crossfade(const Crossfade& crossfade, double share, Vec3* positions, JobRunner& jobs);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

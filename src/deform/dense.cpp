@@ -8,7 +8,7 @@
 #include "deform/constants.h"
 #include "deform/dense_panels.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 HF_VECTOR(Lanes, double, 4);  // compiled to two halves without AVX
@@ -139,4 +139,4 @@ void DenseFactor::solve_sides(int sides, double* x) const noexcept {
   loop({static_cast<std::size_t>(size_), rows_.data(), columns_.data(), inverse_pivot_.data()}, sides, x);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -13,7 +13,7 @@
 
 #include "base/memory.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 class DenseFactor {
  public:
@@ -37,4 +37,4 @@ class DenseFactor {
   Buffer<double> inverse_pivot_;   // 0 for dropped unknowns
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

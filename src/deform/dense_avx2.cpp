@@ -6,7 +6,7 @@
 #include "base/compiler.h"
 #include "deform/dense_panels.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 HF_VECTOR(Lanes, double, 4);
@@ -20,4 +20,4 @@ void solve_dense_avx2(const DensePanels& factor, int sides, double* x) noexcept 
   solve_panels<Lanes, 2, 4>(factor, x);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

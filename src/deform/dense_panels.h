@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct DensePanels {
   static constexpr std::size_t wide = 8;  // rows or columns of a panel; no result depends on it
@@ -29,4 +29,4 @@ void solve_dense(const DensePanels& factor, int sides, double* x) noexcept;
 void solve_dense_avx2(const DensePanels& factor, int sides, double* x) noexcept;
 void solve_dense_avx512(const DensePanels& factor, int sides, double* x) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

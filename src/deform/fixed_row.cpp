@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 double fix_row(Span<const std::uint16_t> cluster, Span<const float> weight, std::uint32_t count, std::uint32_t total,
                FixedRow& out) noexcept {
@@ -46,4 +46,4 @@ double fix_row(Span<const std::uint16_t> cluster, Span<const float> weight, std:
   return 0.5 * change;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

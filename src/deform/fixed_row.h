@@ -9,7 +9,7 @@
 
 #include "base/span.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // At most this many entries in a row; more than any engine reads. It bounds a table on the stack.
 constexpr std::uint32_t most_row_entries = 64;
@@ -24,4 +24,4 @@ struct FixedRow {
 double fix_row(Span<const std::uint16_t> cluster, Span<const float> weight, std::uint32_t count, std::uint32_t total,
                FixedRow& out) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

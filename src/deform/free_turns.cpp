@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // Rounds in which the handles of free rotation find their rotations one after the other. A round is exact for one
@@ -266,4 +266,4 @@ void respond_to_turns(const FreeTurns& turns, const FreeTurnsState& state, doubl
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

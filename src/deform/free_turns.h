@@ -20,7 +20,7 @@
 #include "deform/rotation.h"
 #include "deform/subspace.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct FreeTurns {
   explicit FreeTurns(Memory& memory)
@@ -80,4 +80,4 @@ void find_turns(const FreeTurns& turns, const double* r, std::size_t size, const
 // Subtracts sum_h U_h R_h' from the solved X_f.
 void respond_to_turns(const FreeTurns& turns, const FreeTurnsState& state, double* solved, std::size_t size) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // A cluster that a vertex does not have gets an entry from this share of the vertex's largest gradient on. Half as much
@@ -14,7 +14,7 @@ constexpr double least_gradient_share = 0.01;
 
 // The triangles at each vertex.
 struct Around {
-  Around(const Mesh& mesh, Memory& memory) : start(mesh.positions.size() + 1, 0, &memory), triangle(&memory) {
+  Around(const mesh::Mesh& mesh, Memory& memory) : start(mesh.positions.size() + 1, 0, &memory), triangle(&memory) {
     for (const std::int32_t v : mesh.corners) ++start[v + 1];
     for (std::size_t v = 0; v + 1 < start.size(); ++v) start[v + 1] += start[v];
     triangle.resize(mesh.corners.size());
@@ -54,7 +54,7 @@ class ClusterSums {
 };
 
 // Adds the gradients in a triangle, times twice its area. Returns twice the area.
-double add_triangle(const Mesh& mesh, const ClusterWeights& weights, std::int32_t t, ClusterSums& sums) {
+double add_triangle(const mesh::Mesh& mesh, const ClusterWeights& weights, std::int32_t t, ClusterSums& sums) {
   const std::int32_t* corner = mesh.triangle(t);
   const Vec3 p[3] = {mesh.positions[corner[0]], mesh.positions[corner[1]], mesh.positions[corner[2]]};
   const Vec3 area = cross(p[1] - p[0], p[2] - p[0]);
@@ -71,7 +71,7 @@ double add_triangle(const Mesh& mesh, const ClusterWeights& weights, std::int32_
 
 }  // namespace
 
-GradedRows graded_rows(const Mesh& mesh, const ClusterWeights& weights, Memory& memory) {
+GradedRows graded_rows(const mesh::Mesh& mesh, const ClusterWeights& weights, Memory& memory) {
   const Around around(mesh, memory);
   ClusterSums sums(weights.cluster_count, memory);
   GradedRows rows(memory);
@@ -109,4 +109,4 @@ GradedRows graded_rows(const Mesh& mesh, const ClusterWeights& weights, Memory& 
   return rows;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

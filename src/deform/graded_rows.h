@@ -7,7 +7,7 @@
 #pragma once
 #include "deform/bands.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // The entries of vertex v are start[v] .. start[v + 1]: first the entries of ClusterWeights, then entries of weight 0
 // for clusters that only the neighbours have, as beside a handle.
@@ -21,6 +21,6 @@ struct GradedRows {
 
 // Cost: each entry is read once for each triangle at its vertex. Throws HF_ERROR_TOO_LARGE for more than 2^31 - 1
 // entries.
-GradedRows graded_rows(const Mesh& mesh, const ClusterWeights& weights, Memory& memory);
+GradedRows graded_rows(const mesh::Mesh& mesh, const ClusterWeights& weights, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 struct Front {
@@ -20,7 +20,7 @@ struct Front {
 // a limit, and the limit rises by a mean edge length (delta-stepping, Meyer and Sanders 2003, on one thread).
 class Spreading {
  public:
-  Spreading(const Core& core, Memory& memory)
+  Spreading(const surface::Core& core, Memory& memory)
       : start_(core.topology().neighbour_start.data()),
         arc_(memory, core.topology().neighbour.size()),
         node_(memory, core.size()),
@@ -28,7 +28,7 @@ class Spreading {
         far_(&memory),
         best_(&memory),
         stale_(&memory) {
-    const Topology& topology = core.topology();
+    const mesh::Topology& topology = core.topology();
     Buffer<double> length(memory, topology.edge_count());
     for (std::int32_t e = 0; e < topology.edge_count(); ++e)
       length[e] = norm(core.mesh.positions[topology.second(e)] - core.mesh.positions[topology.first(e)]);
@@ -132,8 +132,9 @@ class Spreading {
 
 }  // namespace
 
-std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups, const Core& core, const Rest& rest,
-                                           Span<const std::int32_t> components, std::int32_t wished, Memory& memory) {
+std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups, const surface::Core& core,
+                                           const Rest& rest, Span<const std::int32_t> components, std::int32_t wished,
+                                           Memory& memory) {
   bool complete = groups != nullptr;
   for (const std::int32_t c : components) complete = complete && groups->has(c);
   if (complete) return groups;
@@ -178,4 +179,4 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
   return grown;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -11,7 +11,7 @@
 #include "deform/constants.h"
 #include "deform/rest.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct Groups {
   explicit Groups(Memory& memory)
@@ -32,8 +32,9 @@ struct Groups {
 
   // Returns a copy of `groups` (null: none yet) that also has groups for these components. Existing groups keep their
   // numbers.
-  static std::shared_ptr<const Groups> with(std::shared_ptr<const Groups> groups, const Core& core, const Rest& rest,
-                                            Span<const std::int32_t> components, std::int32_t wished, Memory& memory);
+  static std::shared_ptr<const Groups> with(std::shared_ptr<const Groups> groups, const surface::Core& core,
+                                            const Rest& rest, Span<const std::int32_t> components, std::int32_t wished,
+                                            Memory& memory);
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -8,14 +8,14 @@
 #include "base/error.h"
 #include "deform/constants.h"
 #include "deform/rest.h"
-#include "engine/rim.h"
+#include "surface/rim.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // Chooses `count` vertices of a handle's boundary ring by farthest-point sampling. It takes one vertex of every
 // component first, so that each component has sites.
-Vector<std::int32_t> sample_ring(const Mesh& mesh, const Vector<std::int32_t>& ring, std::uint32_t count,
+Vector<std::int32_t> sample_ring(const mesh::Mesh& mesh, const Vector<std::int32_t>& ring, std::uint32_t count,
                                  Memory& memory) {
   Vector<std::int32_t> chosen(&memory);
   chosen.reserve(std::min<std::size_t>(ring.size(), count));
@@ -84,10 +84,10 @@ void check_region_count(std::size_t there, std::size_t added, const char* noun) 
          handle_limit);
 }
 
-std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
+std::shared_ptr<HandleRegion> make_region(const surface::Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t rim_site_count, Memory& memory) {
-  const Mesh& mesh = core.mesh;
-  const Topology& topology = core.topology();
+  const mesh::Mesh& mesh = core.mesh;
+  const mesh::Topology& topology = core.topology();
   auto region = make_shared_in<HandleRegion>(memory, memory);
   region->vertices.assign(vertices.begin(), vertices.end());
   std::sort(region->vertices.begin(), region->vertices.end());
@@ -99,7 +99,7 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
   Vec3 sum;
   for (const std::int32_t v : region->vertices) {
     sum = sum + mesh.positions[v];
-    bool rim = couples_outward(core, v, inside);
+    bool rim = surface::couples_outward(core, v, inside);
     for (std::int32_t k = topology.neighbour_start[v]; !rim && k < topology.neighbour_start[v + 1]; ++k)
       rim = !inside(topology.neighbour[k]);
     if (rim) ring.push_back(v);
@@ -114,7 +114,7 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
   return region;
 }
 
-std::int32_t vertex_near(const Core& core, Vec3 point) noexcept {
+std::int32_t vertex_near(const surface::Core& core, Vec3 point) noexcept {
   std::int32_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::int32_t v = 0; v < core.size(); ++v) {
@@ -128,7 +128,7 @@ std::int32_t vertex_near(const Core& core, Vec3 point) noexcept {
 }
 
 Vector<std::int32_t> RegionSearch::from(std::int32_t nearest, Vec3 point, double radius) {
-  const Topology& topology = core_.topology();
+  const mesh::Topology& topology = core_.topology();
   Vector<std::int32_t> region(1, nearest, core_.memory.get());
   seen_[nearest] = 1;
   for (std::size_t at = 0; at < region.size(); ++at) {
@@ -146,7 +146,7 @@ Vector<std::int32_t> RegionSearch::from(std::int32_t nearest, Vec3 point, double
 }
 
 // How far a point is from the nearest neighbour of a vertex.
-double neighbour_distance(const Core& core, std::int32_t v, Vec3 point) {
+double neighbour_distance(const surface::Core& core, std::int32_t v, Vec3 point) {
   double least = std::numeric_limits<double>::infinity();
   for (std::int32_t k = core.topology().neighbour_start[v]; k < core.topology().neighbour_start[v + 1]; ++k)
     least = std::min(least, norm(core.mesh.positions[core.topology().neighbour[k]] - point));
@@ -165,30 +165,31 @@ struct RegionCentre {
   Vec3 point;
 };
 
-RegionCentre centre_of(const Core& core, const Places& places, const PlaceReader& reader, std::uint32_t r) {
+RegionCentre centre_of(const surface::Core& core, const mesh::Places& places, const mesh::PlaceReader& reader,
+                       std::uint32_t r) {
   if (places.points) {
-    const Vec3 point = read_point_near(core.mesh, places.points + 3 * std::size_t{r}, "point", r);
+    const Vec3 point = mesh::read_point_near(core.mesh, places.points + 3 * std::size_t{r}, "point", r);
     return {vertex_near(core, point), point};
   }
-  const SurfacePlace place = reader.read(r);
+  const mesh::SurfacePlace place = reader.read(r);
   const auto corner = [&](int k) { return core.mesh.positions[place.vertex[k]]; };
   Vec3 point = corner(0);
   int nearest = 0;
   if (!place.is_vertex()) point = place.weight[0] * point;
-  for (int k = 1; k < 3 && place.vertex[k] != Mesh::none; ++k) point = point + place.weight[k] * corner(k);
-  for (int k = 1; k < 3 && place.vertex[k] != Mesh::none; ++k)
+  for (int k = 1; k < 3 && place.vertex[k] != mesh::Mesh::none; ++k) point = point + place.weight[k] * corner(k);
+  for (int k = 1; k < 3 && place.vertex[k] != mesh::Mesh::none; ++k)
     nearest = norm(corner(k) - point) < norm(corner(nearest) - point) ? k : nearest;
   return {place.vertex[nearest], point};
 }
 
 }  // namespace
 
-void regions_near(const Core& core, const Places& places, const double* radii, Vector<std::uint32_t>& start,
-                  Vector<std::int32_t>& vertices) {
+void regions_near(const surface::Core& core, const mesh::Places& places, const double* radii,
+                  Vector<std::uint32_t>& start, Vector<std::int32_t>& vertices) {
   start.push_back(0);
-  Places surface = places;
+  mesh::Places surface = places;
   surface.points = nullptr;  // of points, vertices count and not triangles
-  const PlaceReader reader(core.mesh, surface, *core.memory);
+  const mesh::PlaceReader reader(core.mesh, surface, *core.memory);
   RegionSearch search(core);
   for (std::uint32_t r = 0; r < places.count; ++r) {
     const RegionCentre centre = centre_of(core, places, reader, r);
@@ -207,7 +208,7 @@ void regions_near(const Core& core, const Places& places, const double* radii, V
   }
 }
 
-Reach::Reach(const Mesh& mesh, const Handles& handles, Memory& memory)
+Reach::Reach(const mesh::Mesh& mesh, const Handles& handles, Memory& memory)
     : owner(mesh.vertex_count(), -1, &memory),
       component_start(mesh.component_count() + 1, 0, &memory),
       handle(&memory) {
@@ -234,14 +235,14 @@ Reach::Reach(const Mesh& mesh, const Handles& handles, Memory& memory)
   }
 }
 
-void set_handle_sites(const Core& core, SiteSolver& solver, const Handles& before, const Handles& handles,
-                      Memory& memory) {
+void set_handle_sites(const surface::Core& core, solve::SiteSolver& solver, const Handles& before,
+                      const Handles& handles, Memory& memory) {
   std::size_t same = 0;
   std::int32_t first = 0;
   for (; same < std::min(before.size(), handles.size()) && before[same].region == handles[same].region; ++same)
     first += static_cast<std::int32_t>(handles[same].region->sites.size());
   Vector<std::int32_t> remove(&memory), add(&memory);
-  Vector<Site> sites(&memory);
+  Vector<solve::Site> sites(&memory);
   for (std::size_t i = same; i < before.size(); ++i) {
     for (std::size_t k = 0; k < before[i].region->sites.size(); ++k)
       remove.push_back(first + static_cast<std::int32_t>(remove.size()));
@@ -249,12 +250,12 @@ void set_handle_sites(const Core& core, SiteSolver& solver, const Handles& befor
   for (std::size_t i = same; i < handles.size(); ++i) {
     for (const std::int32_t v : handles[i].region->sites) {
       add.push_back(first + static_cast<std::int32_t>(add.size()));
-      sites.push_back(Site::at_vertex(core.mesh, v));
+      sites.push_back(solve::Site::at_vertex(core.mesh, v));
       sites.back().part = static_cast<std::int32_t>(i);
     }
   }
   if (remove.empty() && add.empty()) return;
-  SiteEdit edit;
+  solve::SiteEdit edit;
   edit.remove = remove;
   edit.add = add;
   edit.sites = sites;
@@ -273,9 +274,9 @@ struct Solved {
 };
 
 // Makes fields of solved channels.
-class FieldFinish final : public FieldSink {
+class FieldFinish final : public solve::FieldSink {
  public:
-  FieldFinish(const Core& core, const SiteSolver& solver, const Handles& handles, const Reach& reach,
+  FieldFinish(const surface::Core& core, const solve::SiteSolver& solver, const Handles& handles, const Reach& reach,
               std::int32_t channels, HandleFields& fields)
       : core_(core), solver_(solver), handles_(handles), reach_(reach), channels_(channels), fields_(fields) {}
 
@@ -318,19 +319,19 @@ class FieldFinish final : public FieldSink {
     }
   }
 
-  const Core& core_;
-  const SiteSolver& solver_;
+  const surface::Core& core_;
+  const solve::SiteSolver& solver_;
   const Handles& handles_;
   const Reach& reach_;
   std::int32_t channels_;
   HandleFields& fields_;
-  std::optional<Workspace> all_;
+  std::optional<surface::Workspace> all_;
 };
 
 }  // namespace
 
-HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
-                                 Memory& memory) {
+HandleFields solve_handle_fields(const surface::Core& core, solve::SiteSolver& solver, const Handles& handles,
+                                 const Reach& reach, Memory& memory) {
   const std::int32_t n = core.size(), channels = solved_channels(handles.size());
   HandleFields fields(n, static_cast<std::int32_t>(handles.size()), memory);
   const std::size_t width = static_cast<std::size_t>(channels);
@@ -338,7 +339,7 @@ HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Han
   bool any_site = false;
   for (const Handle& handle : handles) any_site = any_site || !handle.region->sites.empty();
   if (!any_site) {
-    Workspace zeros(core.workspaces, width * static_cast<std::size_t>(n));
+    surface::Workspace zeros(core.workspaces, width * static_cast<std::size_t>(n));
     std::fill_n(zeros.data(), width * static_cast<std::size_t>(n), 0.0);
     finish.finish({zeros.data(), nullptr, width});
     return fields;
@@ -353,4 +354,4 @@ HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Han
   return fields;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

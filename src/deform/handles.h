@@ -13,10 +13,10 @@
 #include <memory>
 
 #include "deform/constants.h"
-#include "engine/site_solver.h"
 #include "mesh/place_reader.h"
+#include "solve/site_solver.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // Bounds the regions of a pose or a transfer, each called `noun`. Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.
 void check_region_count(std::size_t there, std::size_t added, const char* noun);
@@ -40,27 +40,27 @@ using Handles = Vector<Handle>;
 
 // Makes the region of a handle. vertices: inner vertices without Mesh::none; repeated ones count once.
 // rim_site_count: number of boundary ring vertices used as sites, 0 for the whole ring.
-std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
+std::shared_ptr<HandleRegion> make_region(const surface::Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t rim_site_count, Memory& memory);
 
 // Returns the vertex nearest to a point, in the unit of the scaled mesh.
-std::int32_t vertex_near(const Core& core, Vec3 point) noexcept;
+std::int32_t vertex_near(const surface::Core& core, Vec3 point) noexcept;
 
 // Finds the vertices within a radius of a point. Point and radius are in the unit of the scaled mesh. A region starts
 // at a vertex near the point, which always belongs to it. It contains those vertices that are edge-connected to that
 // vertex inside the radius. One search finds many regions: each costs its own size.
 class RegionSearch {
  public:
-  explicit RegionSearch(const Core& core)
+  explicit RegionSearch(const surface::Core& core)
       : core_(core), seen_(static_cast<std::size_t>(core.size()), 0, core.memory.get()) {}
-  const Core& core() const noexcept { return core_; }
+  const surface::Core& core() const noexcept { return core_; }
   // Returns the region in ascending order.
   Vector<std::int32_t> from(std::int32_t nearest, Vec3 point, double radius);
   // The same from the vertex nearest to the point. Costs a pass over the mesh.
   Vector<std::int32_t> near(Vec3 point, double radius) { return from(vertex_near(core_, point), point, radius); }
 
  private:
-  const Core& core_;
+  const surface::Core& core_;
   Vector<std::uint8_t> seen_;  // all 0 between two searches
 };
 
@@ -71,12 +71,12 @@ bool is_spike(Span<const std::int32_t> region, double radius) noexcept;
 // nearest vertex, any other place for the nearest of its corners. Region r is vertices[start[r] .. start[r + 1]).
 // Throws as PlaceReader does, HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a radius that is negative, or makes
 // a spike; index: r.
-void regions_near(const Core& core, const Places& places, const double* radii, Vector<std::uint32_t>& start,
-                  Vector<std::int32_t>& vertices);
+void regions_near(const surface::Core& core, const mesh::Places& places, const double* radii,
+                  Vector<std::uint32_t>& start, Vector<std::int32_t>& vertices);
 
 // Lists which handle owns each vertex, and which handles have vertices in each component.
 struct Reach {
-  Reach(const Mesh& mesh, const Handles& handles, Memory& memory);
+  Reach(const mesh::Mesh& mesh, const Handles& handles, Memory& memory);
   Vector<std::int32_t> owner;            // by vertex: index of its handle, or -1
   Vector<std::int32_t> component_start;  // handles of component c: handle[start[c] .. start[c + 1]), ascending
   Vector<std::int32_t> handle;
@@ -111,11 +111,11 @@ struct HandleFields {
 // Gives the solver the sites of `handles`. before: the handles whose sites it has. Slots count the sites of all
 // handles, one handle after the other. The solver then gives the bits of one that never had other sites. Cost: the
 // elimination paths of the first handle that differs and of all later ones.
-void set_handle_sites(const Core& core, SiteSolver& solver, const Handles& before, const Handles& handles,
-                      Memory& memory);
+void set_handle_sites(const surface::Core& core, solve::SiteSolver& solver, const Handles& before,
+                      const Handles& handles, Memory& memory);
 
 // Solves the fields of all handles at once. solver: has the sites of these handles (set_handle_sites).
-HandleFields solve_handle_fields(const Core& core, SiteSolver& solver, const Handles& handles, const Reach& reach,
-                                 Memory& memory);
+HandleFields solve_handle_fields(const surface::Core& core, solve::SiteSolver& solver, const Handles& handles,
+                                 const Reach& reach, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -5,7 +5,7 @@
 
 #include "base/compiler.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // Pins in all, and at least in a component: more hold every limb, fewer take less time and memory.
@@ -189,4 +189,4 @@ void add_holds(const Holds& holds, const double* rows, double* solved, std::size
   add_pull(holds, state.pull.data(), solved, size);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

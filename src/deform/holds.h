@@ -24,7 +24,7 @@
 #include "deform/rotation.h"
 #include "deform/subspace.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // Strength of the pins at a share of one half, where all pins together count as one point of the surface. More lets a
 // hand take less of the body along at the same share. A hand pulled up by 0.25 of the box moves the head of eight
@@ -54,7 +54,7 @@ struct Holds {
 };
 
 struct HoldsInput {
-  const Mesh& mesh;
+  const mesh::Mesh& mesh;
   const Subspace& subspace;
   const ClusterWeights& weights;
   const Groups& groups;
@@ -89,4 +89,4 @@ void gap_before(const Holds& holds, const double* r, std::size_t size, HoldsStat
 // clusters in it.
 void add_holds(const Holds& holds, const double* rows, double* solved, std::size_t size, HoldsState& state) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -7,7 +7,7 @@
 #include "field/intake.h"
 #include "mesh/vertex_lists.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 static_assert(static_cast<int>(HandleReason::foot) == HF_HANDLE_REASON_FOOT &&
@@ -18,7 +18,7 @@ static_assert(static_cast<int>(HandleReason::foot) == HF_HANDLE_REASON_FOOT &&
               "hf/pose.h states other reasons");
 
 // The unit vector away from the ground. For 0 0 0 it is the up axis of the skeleton where that is known, else y.
-Vec3 read_up(const double* up, const KnownSkeleton* skeleton) {
+Vec3 read_up(const double* up, const skeleton::KnownSkeleton* skeleton) {
   if (!is_finite_point(up)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "up is not finite");
   const Vec3 unit = unit_vector({up[0], up[1], up[2]});
   if (unit.x != 0 || unit.y != 0 || unit.z != 0) return unit;
@@ -41,7 +41,8 @@ void check_skeleton(const hf_handle_proposals_desc& desc) {
   }
 }
 
-void check_character(const hf_handle_proposals_desc& desc, const Mesh& mesh, const KnownSkeleton& skeleton) {
+void check_character(const hf_handle_proposals_desc& desc, const mesh::Mesh& mesh,
+                     const skeleton::KnownSkeleton& skeleton) {
   if (desc.joint_count > 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joints and a skeleton are both set; set one");
   const std::uint32_t skinned = skeleton.input.vertex_count;
   if (skinned > 0 && skinned != mesh.report.vertex_count)
@@ -52,7 +53,7 @@ void check_character(const hf_handle_proposals_desc& desc, const Mesh& mesh, con
 
 }  // namespace
 
-HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& memory) {
+HandleInput read_handles(const surface::Core& core, const hf_handles_desc& desc, Memory& memory) {
   check_region_count(0, desc.handle_count, "handle");  // before lists of that length are read
   check_flag(desc.in_place, "in_place");
   check_flag(desc.free_rotation, "free_rotation");
@@ -65,15 +66,15 @@ HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& 
   if (input.by_places) {
     if (desc.region_counts || desc.region_vertices)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and places are both set; set one");
-    const Places places(desc.handle_count, desc.vertices, desc.places, desc.points);
+    const mesh::Places places(desc.handle_count, desc.vertices, desc.places, desc.points);
     require(desc.radii, "radii");
     regions_near(core, places, desc.radii, input.start, input.vertices);
     return input;
   }
   require(desc.region_counts, "region_counts");
   require(desc.region_vertices, "region_vertices");
-  append_starts(desc.handle_count, desc.region_counts, core.mesh.report.vertex_count, input.start);
-  append_inner(core.mesh, input.start.back(), desc.region_vertices, "region_vertices", input.vertices);
+  mesh::append_starts(desc.handle_count, desc.region_counts, core.mesh.report.vertex_count, input.start);
+  mesh::append_inner(core.mesh, input.start.back(), desc.region_vertices, "region_vertices", input.vertices);
   return input;
 }
 
@@ -94,13 +95,13 @@ void check_handles(std::uint32_t count, const std::uint32_t* handles) {
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles; a pose has at most %d", count, HF_HANDLE_LIMIT);
 }
 
-Vector<std::int32_t> read_rigid_pieces(const Core& core, std::uint32_t count, const std::uint32_t* vertices,
+Vector<std::int32_t> read_rigid_pieces(const surface::Core& core, std::uint32_t count, const std::uint32_t* vertices,
                                        Memory& memory) {
   Vector<std::int32_t> inner(&memory);
   if (count == 0) return inner;
   require(vertices, "vertices");
-  check_vertex_count(core.mesh, count, "vertex_count");
-  append_usable(core.mesh, count, vertices, "vertices", inner);
+  mesh::check_vertex_count(core.mesh, count, "vertex_count");
+  mesh::append_usable(core.mesh, count, vertices, "vertices", inner);
   return inner;
 }
 
@@ -149,13 +150,13 @@ DeformRequest read_request(const hf_deform_desc& desc) {
   return request;
 }
 
-ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc, const Mesh& mesh,
-                                      const KnownSkeleton* skeleton) {
+ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc, const mesh::Mesh& mesh,
+                                      const skeleton::KnownSkeleton* skeleton) {
   ProposalOptions options;
   options.skeleton = skeleton;
   if (skeleton) check_character(desc, mesh, *skeleton);
   options.up = read_up(desc.up, skeleton);
-  options.least_length_share = read_least_length(desc.least_length_share);
+  options.least_length_share = field::read_least_length(desc.least_length_share);
   options.limit = count_of(desc.limit, default_proposals, 1, HF_HANDLE_LIMIT, "limit");
   require_zero(desc.reserved);
   check_skeleton(desc);
@@ -165,4 +166,4 @@ ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc, cons
   return options;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

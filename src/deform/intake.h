@@ -4,7 +4,7 @@
 #include "deform/proposals.h"
 #include "hf/pose.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // Regions of handles to add. Region r is vertices[start[r] .. start[r + 1]).
 struct HandleInput {
@@ -17,7 +17,7 @@ struct HandleInput {
 };
 // Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NULL_POINTER,
 // HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE as hf_pose_add_handles says.
-HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& memory);
+HandleInput read_handles(const surface::Core& core, const hf_handles_desc& desc, Memory& memory);
 // Adds the handles. Throws as PoseStack::add_handles. The index of HF_ERROR_CONFLICT is the region where regions lie
 // around points.
 void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> out_numbers);
@@ -26,7 +26,7 @@ void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> 
 void check_handles(std::uint32_t count, const std::uint32_t* handles);
 // Returns the inner vertices of a list, which may be empty. Throws HF_ERROR_NULL_POINTER, HF_ERROR_TOO_LARGE,
 // HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT.
-Vector<std::int32_t> read_rigid_pieces(const Core& core, std::uint32_t count, const std::uint32_t* vertices,
+Vector<std::int32_t> read_rigid_pieces(const surface::Core& core, std::uint32_t count, const std::uint32_t* vertices,
                                        Memory& memory);
 // Throws HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT.
 void check_following(double following);
@@ -47,7 +47,7 @@ DeformRequest read_request(const hf_deform_desc& desc);
 
 // Throws HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE, HF_ERROR_NULL_POINTER or
 // HF_ERROR_OUT_OF_RANGE as hf_surface_propose_handles says. skeleton: from the desc, or null. It outlives the options.
-ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc, const Mesh& mesh,
-                                      const KnownSkeleton* skeleton);
+ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc, const mesh::Mesh& mesh,
+                                      const skeleton::KnownSkeleton* skeleton);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -6,7 +6,7 @@
 
 #include "base/compiler.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 struct Histogram {
@@ -102,10 +102,10 @@ void set_equal_length(const Histogram& histogram, Levels& levels) noexcept {
 
 }  // namespace
 
-Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
+Vector<Levels> make_levels(const surface::Core& core, const Rest& rest, const HandleFields& fields,
                            const Vector<FieldPart>& parts, const Vector<std::int32_t>& part_start, BandSpacing spacing,
                            Memory& memory) {
-  const Mesh& mesh = core.mesh;
+  const mesh::Mesh& mesh = core.mesh;
   Vector<Levels> levels(parts.size(), Levels(), &memory);
   if (spacing == BandSpacing::equal_value) {
     for (Levels& l : levels) set_equal_value(l);
@@ -139,4 +139,4 @@ Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleField
   return levels;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

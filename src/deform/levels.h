@@ -13,7 +13,7 @@
 #include "deform/handles.h"
 #include "deform/rest.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 enum class BandSpacing : std::int32_t { equal_value, equal_length };
 
@@ -39,7 +39,7 @@ inline double Levels::operator()(double phi) const noexcept {
 
 // Computes the levels (field values turned to [0, 1]) of several fields in one pass over the triangles. The fields of
 // component c are parts[part_start[c] .. part_start[c + 1]).
-Vector<Levels> make_levels(const Core& core, const Rest& rest, const HandleFields& fields,
+Vector<Levels> make_levels(const surface::Core& core, const Rest& rest, const HandleFields& fields,
                            const Vector<FieldPart>& parts, const Vector<std::int32_t>& part_start, BandSpacing spacing,
                            Memory& memory);
 
@@ -79,4 +79,4 @@ inline BandValues band_values(double level, std::int32_t band_count, int degree)
   return b;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // The limb ends where this is largest. On a tube the area grows like the fall, on a trunk much faster. With the power 1
@@ -17,7 +17,8 @@ constexpr double limb_margin = 0.85;
 // Returns the field's value where the limb ends. vertices: of the component, outside handles, in order of falling
 // field.
 // area: of the handle.
-double limb_end(const Core& core, FieldColumn<const double> field, double area, Span<const std::int32_t> vertices) {
+double limb_end(const surface::Core& core, FieldColumn<const double> field, double area,
+                Span<const std::int32_t> vertices) {
   double best = 0, end = 1;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const double level = field[vertices[i]];
@@ -48,8 +49,8 @@ SymmetricMatrix part_of(const SymmetricMatrix& k, Span<const std::int32_t> verti
 
 }  // namespace
 
-Vector<std::int32_t> limb_of(const Core& core, const Reach& reach, const HandleFields& fields, std::int32_t handle,
-                             Memory& memory) {
+Vector<std::int32_t> limb_of(const surface::Core& core, const Reach& reach, const HandleFields& fields,
+                             std::int32_t handle, Memory& memory) {
   const FieldColumn<const double> field = fields.of(handle);
   const SharedVector<Index>& component = core.mesh.component;
   const std::size_t components = static_cast<std::size_t>(core.mesh.component_count());
@@ -79,8 +80,8 @@ Vector<std::int32_t> limb_of(const Core& core, const Reach& reach, const HandleF
   return limb;
 }
 
-Limbs make_limbs(const Core& core, const Reach& reach, const HandleFields& fields, Span<const std::uint32_t> steps,
-                 Memory& memory) {
+Limbs make_limbs(const surface::Core& core, const Reach& reach, const HandleFields& fields,
+                 Span<const std::uint32_t> steps, Memory& memory) {
   Limbs limbs(memory);
   if (std::all_of(steps.begin(), steps.end(), [](std::uint32_t k) { return k == 0; })) return limbs;
   const std::size_t n = static_cast<std::size_t>(core.size());
@@ -107,8 +108,8 @@ Limbs make_limbs(const Core& core, const Reach& reach, const HandleFields& field
     const Vec3 p = core.mesh.positions[v];
     for (const double x : {p.x, p.y, p.z}) coordinates.push_back(static_cast<float>(x));
   }
-  limbs.factor = Factor::make(part_of(k, limbs.vertex, place, memory), coordinates, {}, memory, *core.jobs);
+  limbs.factor = factor::Factor::make(part_of(k, limbs.vertex, place, memory), coordinates, {}, memory, *core.jobs);
   return limbs;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

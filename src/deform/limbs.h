@@ -17,23 +17,23 @@
 #include "deform/handles.h"
 #include "factor/factor.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct Limbs {
   explicit Limbs(Memory& memory) : vertex(&memory), around(&memory) {}
   std::int32_t size() const noexcept { return static_cast<std::int32_t>(vertex.size()); }
-  Vector<std::int32_t> vertex;           // L, ascending
-  Vector<std::int32_t> around;           // L and its neighbours in K, ascending
-  std::shared_ptr<const Factor> factor;  // of K_LL; null: L is empty
+  Vector<std::int32_t> vertex;                   // L, ascending
+  Vector<std::int32_t> around;                   // L and its neighbours in K, ascending
+  std::shared_ptr<const factor::Factor> factor;  // of K_LL; null: L is empty
   std::uint32_t steps = 0;
 };
 
 // Returns the vertices of a handle's limb, ascending, without vertices of handles.
-Vector<std::int32_t> limb_of(const Core& core, const Reach& reach, const HandleFields& fields, std::int32_t handle,
-                             Memory& memory);
+Vector<std::int32_t> limb_of(const surface::Core& core, const Reach& reach, const HandleFields& fields,
+                             std::int32_t handle, Memory& memory);
 
 // steps: by handle, 0 where its limb is not meant. The limbs take the largest number of steps.
-Limbs make_limbs(const Core& core, const Reach& reach, const HandleFields& fields, Span<const std::uint32_t> steps,
-                 Memory& memory);
+Limbs make_limbs(const surface::Core& core, const Reach& reach, const HandleFields& fields,
+                 Span<const std::uint32_t> steps, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -5,24 +5,24 @@
 #include "base/index.h"
 #include "deform/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // The role whose part a joint of this role belongs to.
-Role part_role(Role role) noexcept {
+skeleton::Role part_role(skeleton::Role role) noexcept {
   switch (role) {
-    case Role::head:
-    case Role::jaw:
-    case Role::eye:
-      return Role::head;
-    case Role::hand:
-    case Role::finger:
-      return Role::hand;
-    case Role::foot:
-    case Role::toe:
-      return Role::foot;
+    case skeleton::Role::head:
+    case skeleton::Role::jaw:
+    case skeleton::Role::eye:
+      return skeleton::Role::head;
+    case skeleton::Role::hand:
+    case skeleton::Role::finger:
+      return skeleton::Role::hand;
+    case skeleton::Role::foot:
+    case skeleton::Role::toe:
+      return skeleton::Role::foot;
     default:
-      return Role::other;
+      return skeleton::Role::other;
   }
 }
 
@@ -50,7 +50,7 @@ Vector<std::uint32_t> parents_first(const Vector<std::int32_t>& parents, Memory&
 
 }  // namespace
 
-MovedParts::MovedParts(const Core& core, const KnownSkeleton& known)
+MovedParts::MovedParts(const surface::Core& core, const skeleton::KnownSkeleton& known)
     : core_(core),
       known_(known),
       memory_(*core.memory),
@@ -80,7 +80,7 @@ MovedParts::MovedParts(const Core& core, const KnownSkeleton& known)
 
 template <class Visit>
 void MovedParts::for_joints(std::int32_t v, Visit&& visit) const {
-  const CharacterInput& input = known_.input;
+  const skeleton::CharacterInput& input = known_.input;
   if (input.vertex_count == 0) return;
   const std::size_t given = at(core_.mesh.given_of_inner[at(v)]);
   for (std::uint32_t k = input.influence_starts[given]; k < input.influence_starts[given + 1]; ++k) {
@@ -93,7 +93,7 @@ bool MovedParts::knows_roles() const noexcept { return known_.character.role_con
 // A joint without a role takes the role of its parent. But a joint that hangs on the trunk begins a limb of its own, so
 // it keeps no role.
 void MovedParts::read_roles() {
-  const Character& character = known_.character;
+  const skeleton::Character& character = known_.character;
   role_ = character.roles;
   side_ = character.sides;
   chain_ = character.joint_chains;
@@ -101,8 +101,10 @@ void MovedParts::read_roles() {
     const std::int32_t parent = known_.parents[j];
     if (parent < 0) continue;
     if (chain_[j] < 0) chain_[j] = chain_[at(parent)];
-    const Role above = role_[at(parent)];
-    if (role_[j] != Role::other || above == Role::spine || above == Role::neck || above == Role::shoulder) continue;
+    const skeleton::Role above = role_[at(parent)];
+    if (role_[j] != skeleton::Role::other || above == skeleton::Role::spine || above == skeleton::Role::neck ||
+        above == skeleton::Role::shoulder)
+      continue;
     role_[j] = above;
     side_[j] = side_[at(parent)];
   }
@@ -111,23 +113,24 @@ void MovedParts::read_roles() {
 // A chain joins the part of the chain that it hangs on: a jaw joins a head. Fingers without a hand are one part. A
 // single joint without a role on a head, such as a brow, belongs to the head; a row of such joints is hair.
 void MovedParts::read_chains() {
-  const Character& character = known_.character;
-  const Vector<Chain>& chains = character.chains;
+  const skeleton::Character& character = known_.character;
+  const Vector<skeleton::Chain>& chains = character.chains;
   Vector<std::int32_t> part(chains.size(), -1, &memory_), below(chains.size(), -1, &memory_);
   Vector<std::uint8_t> ends(chains.size(), 1, &memory_);
-  for (const Chain& chain : chains) {
+  for (const skeleton::Chain& chain : chains) {
     if (chain.parent >= 0) ends[at(chain.parent)] = 0;
   }
   for (std::size_t c = 0; c < chains.size(); ++c) {
     const std::int32_t above = chains[c].parent;
-    const Role role = part_role(chains[c].role);
-    const bool digit = chains[c].role == Role::finger || chains[c].role == Role::toe;
+    const skeleton::Role role = part_role(chains[c].role);
+    const bool digit = chains[c].role == skeleton::Role::finger || chains[c].role == skeleton::Role::toe;
     const std::int32_t part_above = above < 0 ? -1 : digit && part[at(above)] < 0 ? below[at(above)] : part[at(above)];
-    const Role role_above = part_above < 0 ? Role::other : part_role_[at(part_above)];
-    const bool brow = role_above == Role::head && chains[c].role == Role::other && chains[c].count == 1 && ends[c];
+    const skeleton::Role role_above = part_above < 0 ? skeleton::Role::other : part_role_[at(part_above)];
+    const bool brow = role_above == skeleton::Role::head && chains[c].role == skeleton::Role::other &&
+                      chains[c].count == 1 && ends[c];
     if (part_above >= 0 && (brow || role == role_above)) {
       part[c] = part_above;
-    } else if (role != Role::other) {
+    } else if (role != skeleton::Role::other) {
       part[c] = static_cast<std::int32_t>(part_role_.size());
       part_role_.push_back(role);
       part_joint_.push_back(character.chain_joints[chains[c].first]);
@@ -202,10 +205,10 @@ void MovedParts::find_vertices() {
     if (vertex_part_[v] >= 0) vertex_[at(next[at(vertex_part_[v])]++)] = static_cast<std::int32_t>(v);
   }
   has_foot_.assign(known_.character.chains.size(), 0);
-  for (const Chain& chain : known_.character.chains) {
+  for (const skeleton::Chain& chain : known_.character.chains) {
     if (chain.parent < 0) continue;
     const std::int32_t part = joint_part_[known_.character.chain_joints[chain.first]];
-    if (part >= 0 && part_role_[at(part)] == Role::foot && vertices_of(at(part)).size() >= least_part)
+    if (part >= 0 && part_role_[at(part)] == skeleton::Role::foot && vertices_of(at(part)).size() >= least_part)
       has_foot_[at(chain.parent)] = 1;
   }
 }
@@ -215,7 +218,7 @@ void MovedParts::find_beside() {
   beside_.assign(size, 0);
   for (std::size_t v = 0; v < size; ++v) beside_[v] = vertex_part_[v] >= 0;
   if (core_.geometry->links) {
-    for (const Link& link : core_.geometry->links->links) {
+    for (const mesh::Link& link : core_.geometry->links->links) {
       std::int32_t ends[4] = {link.vertex, link.corner[0], link.corner[1], link.corner[2]};
       const bool held = std::any_of(ends, ends + 4, [&](std::int32_t v) { return v >= 0 && vertex_part_[at(v)] >= 0; });
       for (const std::int32_t v : ends) {
@@ -233,27 +236,28 @@ void MovedParts::find_beside() {
 }
 
 void MovedParts::find_chest() {
-  const Character& character = known_.character;
+  const skeleton::Character& character = known_.character;
   chest_.assign(known_.parents.size(), 0);
   if (!(character.trunk > upright_trunk)) return;
   for (std::size_t j = 0; j < chest_.size(); ++j) {
-    if (character.roles[j] != Role::head) continue;
+    if (character.roles[j] != skeleton::Role::head) continue;
     std::int32_t above = static_cast<std::int32_t>(j);
-    while (above >= 0 && (character.roles[at(above)] == Role::head || character.roles[at(above)] == Role::neck))
+    while (above >= 0 &&
+           (character.roles[at(above)] == skeleton::Role::head || character.roles[at(above)] == skeleton::Role::neck))
       above = character.carriers[at(above)];
-    if (above >= 0 && character.roles[at(above)] == Role::spine) chest_[at(above)] = 1;
+    if (above >= 0 && character.roles[at(above)] == skeleton::Role::spine) chest_[at(above)] = 1;
   }
   for (std::size_t j = 0; j < chest_.size(); ++j) {
     const std::int32_t carrier = character.carriers[j];
-    if (character.roles[j] == Role::shoulder && carrier >= 0 && chest_[at(carrier)] == 1) chest_[j] = 2;
+    if (character.roles[j] == skeleton::Role::shoulder && carrier >= 0 && chest_[at(carrier)] == 1) chest_[j] = 2;
   }
 }
 
 void MovedParts::find_head_base() {
   if (!core_.geometry->links) return;
-  const Links& links = *core_.geometry->links;
+  const mesh::Links& links = *core_.geometry->links;
   const auto in_head = [&](std::int32_t v) {
-    return vertex_part_[at(v)] >= 0 && part_role_[at(vertex_part_[at(v)])] == Role::head;
+    return vertex_part_[at(v)] >= 0 && part_role_[at(vertex_part_[at(v)])] == skeleton::Role::head;
   };
   // pieces with vertices in a head and others: their edges draw out
   Vector<std::uint8_t> within(links.light.size(), 0, &memory_);
@@ -261,7 +265,7 @@ void MovedParts::find_head_base() {
     within[at(links.piece[v])] |= in_head(static_cast<std::int32_t>(v)) ? 1 : 2;
   double count = 0;
   bool others = false;
-  for (const Link& link : links.links) {
+  for (const mesh::Link& link : links.links) {
     const std::int32_t other = *std::max_element(link.corner, link.corner + 3);
     for (const auto& [from, to] : {std::pair(link.vertex, other), std::pair(other, link.vertex)}) {
       if (!in_head(from) || in_head(to) || links.light[at(links.piece[at(to)])]) continue;
@@ -283,7 +287,7 @@ bool MovedParts::is_in_trunk(std::int32_t vertex) const noexcept {
   double all = 0, own = 0;
   for_joints(vertex, [&](std::uint32_t j, double weight) {
     all += weight;
-    if (known_.character.roles[j] == Role::spine) own += weight;
+    if (known_.character.roles[j] == skeleton::Role::spine) own += weight;
   });
   return 2 * own > all;
 }
@@ -322,7 +326,7 @@ std::int32_t MovedParts::add_trunk(Span<const std::int32_t> vertices) {
   const std::int32_t part = static_cast<std::int32_t>(part_count());
   const std::uint32_t joint = joint_of(vertices);
   part_joint_.push_back(joint == no_joint ? order_.front() : joint);
-  part_role_.push_back(Role::spine);
+  part_role_.push_back(skeleton::Role::spine);
   for (const std::int32_t v : vertices) vertex_part_[at(v)] = part;
   vertex_.insert(vertex_.end(), vertices.begin(), vertices.end());
   start_.push_back(static_cast<std::int32_t>(vertex_.size()));
@@ -330,7 +334,7 @@ std::int32_t MovedParts::add_trunk(Span<const std::int32_t> vertices) {
 }
 
 BodyRole MovedParts::main_role_of(Span<const std::int32_t> region) const noexcept {
-  double share[role_count][3] = {};
+  double share[skeleton::role_count][3] = {};
   BodyRole best;
   for (const std::int32_t v : region) {
     for_joints(v, [&](std::uint32_t j, double weight) {
@@ -338,29 +342,29 @@ BodyRole MovedParts::main_role_of(Span<const std::int32_t> region) const noexcep
     });
   }
   double most = 0;
-  for (std::size_t role = 0; role < role_count; ++role) {
+  for (std::size_t role = 0; role < skeleton::role_count; ++role) {
     for (std::size_t side = 0; side < 3; ++side) {
       if (share[role][side] <= most) continue;
       most = share[role][side];
-      best = {static_cast<Role>(role), static_cast<Side>(side)};
+      best = {static_cast<skeleton::Role>(role), static_cast<skeleton::Side>(side)};
     }
   }
   return best;
 }
 
-bool MovedParts::hangs_free(Role role, bool stands) const noexcept {
+bool MovedParts::hangs_free(skeleton::Role role, bool stands) const noexcept {
   switch (role) {
-    case Role::other:
-    case Role::spine:
-    case Role::neck:
-    case Role::shoulder:
-    case Role::leg:
-    case Role::foot:
-    case Role::toe:
+    case skeleton::Role::other:
+    case skeleton::Role::spine:
+    case skeleton::Role::neck:
+    case skeleton::Role::shoulder:
+    case skeleton::Role::leg:
+    case skeleton::Role::foot:
+    case skeleton::Role::toe:
       return false;
-    case Role::arm:
-    case Role::hand:
-    case Role::finger:
+    case skeleton::Role::arm:
+    case skeleton::Role::hand:
+    case skeleton::Role::finger:
       return !stands || known_.character.trunk > upright_trunk;
     default:
       return true;
@@ -385,4 +389,4 @@ std::int32_t MovedParts::part_of(Span<const std::int32_t> region) const {
   return 2 * static_cast<std::size_t>(count) > region.size() ? part : -1;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

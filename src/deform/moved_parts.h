@@ -11,22 +11,22 @@
 #include <cstdint>
 
 #include "base/span.h"
-#include "engine/core.h"
 #include "skeleton/known_skeleton.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 constexpr std::uint32_t no_joint = 0xffffffffu;
 
 struct BodyRole {
-  Role role = Role::other;
-  Side side = Side::middle;
+  skeleton::Role role = skeleton::Role::other;
+  skeleton::Side side = skeleton::Side::middle;
 };
 
 class MovedParts {
  public:
   // If the skeleton has a skin, the skin has the vertices of the caller's mesh. Both arguments outlive this object.
-  MovedParts(const Core& core, const KnownSkeleton& known);
+  MovedParts(const surface::Core& core, const skeleton::KnownSkeleton& known);
 
   // Whether roles are known well enough to decide which handles are pinned.
   bool knows_roles() const noexcept;
@@ -40,7 +40,7 @@ class MovedParts {
   BodyRole main_role_of(Span<const std::int32_t> region) const noexcept;
   // Whether a limb of this role moves freely: an arm, a head, a tail. stands: the limb is on the ground. Arms of a body
   // that is not upright may then be front legs, and do not move freely.
-  bool hangs_free(Role role, bool stands) const noexcept;
+  bool hangs_free(skeleton::Role role, bool stands) const noexcept;
   // The chain (skeleton/character.h) of a joint, or of the joint it hangs on; -1: none.
   std::int32_t chain_of(std::uint32_t joint) const noexcept { return joint == no_joint ? -1 : chain_[joint]; }
   // Whether a foot hangs on a chain.
@@ -64,7 +64,7 @@ class MovedParts {
   // Whether the spine moves a vertex, and no head, hand or foot is within free_rings edges or a link of it. So a neck
   // between a pinned trunk and a head stays free.
   bool is_of_spine(std::int32_t vertex) const noexcept {
-    return beside_[static_cast<std::size_t>(vertex)] == 0 && main_role_of({&vertex, 1}).role == Role::spine;
+    return beside_[static_cast<std::size_t>(vertex)] == 0 && main_role_of({&vertex, 1}).role == skeleton::Role::spine;
   }
   // Whether the vertex is one that the chest of an upright body moves: the last joint of the spine before neck or head,
   // or a shoulder. Without it a head that is dragged draws the chest to a neck. free_rings as above.
@@ -92,14 +92,14 @@ class MovedParts {
   template <class Visit>
   void for_joints(std::int32_t v, Visit&& visit) const;
 
-  const Core& core_;
-  const KnownSkeleton& known_;
+  const surface::Core& core_;
+  const skeleton::KnownSkeleton& known_;
   Memory& memory_;
   Vector<std::uint32_t> order_;  // joints, parents first
-  Vector<Role> role_;            // by joint, inherited where a joint has none
-  Vector<Side> side_;
+  Vector<skeleton::Role> role_;  // by joint, inherited where a joint has none
+  Vector<skeleton::Side> side_;
   Vector<std::int32_t> chain_, joint_part_;
-  Vector<Role> part_role_;  // head, hand, foot or spine
+  Vector<skeleton::Role> part_role_;  // head, hand, foot or spine
   Vector<std::uint32_t> part_joint_;
   Vector<std::uint8_t> has_foot_;  // by chain
   Vector<std::uint8_t> unmoved_;   // by inner vertex
@@ -113,4 +113,4 @@ class MovedParts {
   Vec3 head_base_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

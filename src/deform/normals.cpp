@@ -8,7 +8,7 @@
 #include "deform/constants.h"
 #include "deform/normals_avx2.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 void add_border_normals_plain(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
                               std::int32_t first, std::int32_t last) noexcept {
@@ -38,7 +38,7 @@ void add_inner_normals(const NormalRows& rows, const std::int32_t* corners, std:
 }
 
 // Adds to the vertices [first, last) twice the area vectors of the faces around them.
-void add_face_normals(const NormalRows& rows, const Faces& faces, const Rest& rest, std::int32_t first,
+void add_face_normals(const NormalRows& rows, const mesh::Faces& faces, const Rest& rest, std::int32_t first,
                       std::int32_t last) noexcept {
   for (std::int32_t v = first; v < last; ++v) {
     float* const sum = rows.sums + 4 * static_cast<std::size_t>(v);
@@ -86,7 +86,7 @@ void normalise(const NormalRows& rows, std::int32_t first, std::int32_t last) no
 
 }  // namespace
 
-void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, NormalSum* sums, Normal* normals,
+void vertex_normals(const mesh::Mesh& mesh, const Rest& rest, const Vec3* positions, NormalSum* sums, Normal* normals,
                     JobRunner& jobs) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(NormalSum) == 4 * sizeof(float));
   static_assert(sizeof(Normal) == 3 * sizeof(float));
@@ -119,4 +119,4 @@ void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, N
   });
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -8,7 +8,7 @@
 #pragma once
 #include "deform/rest.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct Normal {
   float x, y, z;
@@ -24,7 +24,7 @@ struct alignas(16) NormalSum {
 
 // Computes all vertex normals. A vertex gets (0, 0, 1) if its triangles have no direction, or if their normals cancel.
 // positions: in the unit of the caller's mesh. sums: scratch, one per vertex.
-void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, NormalSum* sums, Normal* normals,
+void vertex_normals(const mesh::Mesh& mesh, const Rest& rest, const Vec3* positions, NormalSum* sums, Normal* normals,
                     JobRunner& jobs);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -7,7 +7,7 @@
 
 #include "base/compiler.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 namespace {
 
@@ -52,4 +52,4 @@ void add_border_normals_avx2(const NormalRows& rows, const std::int32_t* corners
   add_normals(rows, corners, count, [=](std::int32_t v) { return v >= first && v < last; });
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

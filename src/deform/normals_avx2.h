@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct NormalRows {
   const double* positions;  // 3 per vertex
@@ -23,4 +23,4 @@ void add_inner_normals_neon(const NormalRows& rows, const std::int32_t* corners,
 void add_border_normals_neon(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
                              std::int32_t first, std::int32_t last) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

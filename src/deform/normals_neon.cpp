@@ -5,7 +5,7 @@
 #include "base/compiler.h"
 #include "deform/normals_avx2.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 namespace {
 
@@ -54,4 +54,4 @@ void add_border_normals_neon(const NormalRows& rows, const std::int32_t* corners
   add_normals(rows, corners, count, [=](std::int32_t v) { return v >= first && v < last; });
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -7,7 +7,7 @@
 #include "base/number_pool.h"
 #include "deform/pose_layout.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 void require_range(std::uint32_t value, std::uint32_t low, std::uint32_t high, const char* name) {
@@ -36,7 +36,7 @@ void check_request(const DeformRequest& request) {
   require_range(request.iteration_count, 1, most_iterations, "iteration_count");
 }
 
-Pose::Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::shared_ptr<const Rest> rest)
+Pose::Pose(std::shared_ptr<const surface::Core> core, const PoseOptions& options, std::shared_ptr<const Rest> rest)
     : core_(std::move(core)),
       options_(options),
       rest_(std::move(rest)),
@@ -45,7 +45,7 @@ Pose::Pose(std::shared_ptr<const Core> core, const PoseOptions& options, std::sh
       placed_(handle_limit, RigidMotion(), &memory()),
       start_(memory()) {}
 
-std::shared_ptr<Pose> Pose::make(std::shared_ptr<const Core> core, const PoseOptions& options) {
+std::shared_ptr<Pose> Pose::make(std::shared_ptr<const surface::Core> core, const PoseOptions& options) {
   const PoseOptions filled = checked(options);
   Memory& memory = *core->memory;
   return make_owner_in<Pose>(core->memory, core, filled, make_shared_in<Rest>(memory, *core, memory));
@@ -68,12 +68,12 @@ std::shared_ptr<Pose> Pose::clone() const {
   return copy;
 }
 
-std::shared_ptr<const Rest> Pose::rest_on(const Core& core) const {
+std::shared_ptr<const Rest> Pose::rest_on(const surface::Core& core) const {
   if (core.geometry != core_->geometry) return make_shared_in<Rest>(memory(), core, memory());
   return make_shared_in<Rest>(memory(), rest_->shape, core, memory());
 }
 
-std::shared_ptr<Pose> Pose::on(std::shared_ptr<const Core> core, std::shared_ptr<const Rest> rest) const {
+std::shared_ptr<Pose> Pose::on(std::shared_ptr<const surface::Core> core, std::shared_ptr<const Rest> rest) const {
   ensure_surface();
   auto moved = clone();
   moved->core_ = core;
@@ -139,7 +139,7 @@ void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_
     if (start[r + 1] <= start[r]) fail(HF_ERROR_EMPTY, static_cast<std::uint32_t>(r), "region %zu has no vertex", r);
     for (std::uint32_t k = start[r]; k < start[r + 1]; ++k) {
       const std::int32_t v = vertices[k];
-      if (v == Mesh::none)
+      if (v == mesh::Mesh::none)
         fail(HF_ERROR_INVALID_ARGUMENT, k, "entry %u of the regions is a vertex without a usable triangle", k);
       if (v < 0 || v >= core_->size())
         fail(HF_ERROR_OUT_OF_RANGE, k, "entry %u of the regions is no vertex of the mesh", k);
@@ -272,16 +272,16 @@ std::shared_ptr<const Groups> Pose::meet(const Layout& layout) const {
 
 std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) const {
   if (layout_) return make_layout(handles, layout_->sites->clone(), layout_->handles);
-  return make_layout(handles, SiteSolver::make(core_), Handles(&memory()));
+  return make_layout(handles, solve::SiteSolver::make(core_), Handles(&memory()));
 }
 
 // Makes the layout of a pose that comes from another core. Both engines take the elimination paths and the dense system
 // of an engine on the core whose factor they extend. Such an engine is kept for the next move: strokes of a brush all
 // have the same.
 std::shared_ptr<const Pose::Layout> Pose::make_layout_on(const Handles& handles, const Layout& before,
-                                                         const Core& from) const {
+                                                         const surface::Core& from) const {
   const Handles none(&memory());
-  std::shared_ptr<SiteSolver> plain;
+  std::shared_ptr<solve::SiteSolver> plain;
   if (core_->factored && core_->factored->geometry == core_->geometry) {
     const bool same = from.geometry == core_->geometry;
     if (same && &from == core_->factored.get()) {
@@ -296,9 +296,9 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout_on(const Handles& handles,
   return make_layout(handles, (plain ? *plain : *before.sites).on(core_), none, plain);
 }
 
-std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
+std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, std::shared_ptr<solve::SiteSolver> sites,
                                                       const Handles& present,
-                                                      std::shared_ptr<SiteSolver> plain_sites) const {
+                                                      std::shared_ptr<solve::SiteSolver> plain_sites) const {
   auto layout = make_shared_in<Layout>(memory(), handles, std::move(sites), *core_, memory());
   layout->plain_sites = std::move(plain_sites);
   const auto solve = [&] {
@@ -422,4 +422,4 @@ Span<const Affine> Pose::cluster_transforms() const noexcept {
   return state_ ? Span<const Affine>(state_->transforms) : Span<const Affine>();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

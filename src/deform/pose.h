@@ -21,7 +21,7 @@
 #include "deform/refine.h"
 #include "deform/rigid_pieces.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // Options of a pose. Zeros mean defaults; hf_pose_desc gives the ranges.
 struct PoseOptions {
@@ -82,7 +82,7 @@ class Pose {
  public:
   // core: one of harmonic fields that has its factor; the caller sees to it. Throws HF_ERROR_INVALID_ARGUMENT for
   // options out of range.
-  static std::shared_ptr<Pose> make(std::shared_ptr<const Core> core, const PoseOptions& options);
+  static std::shared_ptr<Pose> make(std::shared_ptr<const surface::Core> core, const PoseOptions& options);
   std::shared_ptr<Pose> clone() const;
 
   // Adds handles at rest, or in place: the posed surface stays where it stands (crossfade.h). Region r holds
@@ -121,7 +121,7 @@ class Pose {
   std::uint32_t handle_count() const noexcept;
   HandleReport handle(std::uint32_t number) const;              // HF_ERROR_NOT_FOUND
   FieldColumn<const double> field(std::uint32_t number) const;  // per inner vertex
-  const Core& core() const noexcept { return *core_; }
+  const surface::Core& core() const noexcept { return *core_; }
   const PoseOptions& options() const noexcept { return options_; }
   // The clusters (overlapping bands of vertices) as joints: their weights, and their transforms as of the last
   // deform(), in the unit of the scaled mesh. Null before the first handle is added.
@@ -143,8 +143,8 @@ class Pose {
   void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
 
   // Returns this pose on another core of the same mesh, with its handles and their transforms. rest: of that core.
-  std::shared_ptr<Pose> on(std::shared_ptr<const Core> core, std::shared_ptr<const Rest> rest) const;
-  std::shared_ptr<const Rest> rest_on(const Core& core) const;
+  std::shared_ptr<Pose> on(std::shared_ptr<const surface::Core> core, std::shared_ptr<const Rest> rest) const;
+  std::shared_ptr<const Rest> rest_on(const surface::Core& core) const;
 
   // ---- for layers of handles (pose_stack.h), whose poses must depend only on the arguments of these calls ----
 
@@ -175,7 +175,7 @@ class Pose {
   // Returns one vertex of the last pose, in the unit and frame of the caller's mesh.
   Vec3 blended(std::int32_t vertex) const noexcept;
 
-  Pose(std::shared_ptr<const Core> core, const PoseOptions& options,
+  Pose(std::shared_ptr<const surface::Core> core, const PoseOptions& options,
        std::shared_ptr<const Rest> rest);  // for make_owner_in; call make() instead
 
  private:
@@ -232,10 +232,11 @@ class Pose {
   void check_free_turn(bool free_turn) const;
   std::shared_ptr<const Groups> meet(const Layout& layout) const;
   // sites: an engine that holds the handles of `present`.
-  std::shared_ptr<const Layout> make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
+  std::shared_ptr<const Layout> make_layout(const Handles& handles, std::shared_ptr<solve::SiteSolver> sites,
                                             const Handles& present,
-                                            std::shared_ptr<SiteSolver> plain_sites = nullptr) const;
-  std::shared_ptr<const Layout> make_layout_on(const Handles& handles, const Layout& before, const Core& from) const;
+                                            std::shared_ptr<solve::SiteSolver> plain_sites = nullptr) const;
+  std::shared_ptr<const Layout> make_layout_on(const Handles& handles, const Layout& before,
+                                               const surface::Core& from) const;
   std::shared_ptr<const Layout> make_layout(const Handles& handles) const;
   // Returns a state for `layout` (handles and the clusters they make). Handles and clusters of the present state keep
   // their motions, so the surface does not jump.
@@ -266,7 +267,7 @@ class Pose {
   void ensure_surface() const;
   void make_rigid() const noexcept;
 
-  std::shared_ptr<const Core> core_;
+  std::shared_ptr<const surface::Core> core_;
   PoseOptions options_;
   std::shared_ptr<const Rest> rest_;
   std::shared_ptr<const Groups> groups_;
@@ -291,4 +292,4 @@ class Pose {
   SolveReport report_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

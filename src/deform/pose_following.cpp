@@ -5,7 +5,7 @@
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 double Pose::following(std::uint32_t number) const { return state_->handles[require(number, HF_NO_INDEX)].following; }
 
@@ -117,4 +117,4 @@ double PoseStack::following(std::uint32_t number) const {
   return entry.layer > 0 ? 1 : base_->following(entry.inner[0]);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -7,7 +7,7 @@
 #include "base/timer.h"
 #include "deform/pose_layout.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 namespace {
 
@@ -250,7 +250,7 @@ BlendBox Pose::blend_box() const noexcept {
 
 // Vertices and normals from the transforms.
 void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
-  const Mesh& mesh = core_->mesh;
+  const mesh::Mesh& mesh = core_->mesh;
   posed_ = true;
   refined_ = request.refine;
   stale_ = !request.surface;
@@ -377,4 +377,4 @@ DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const 
   return report;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -2,7 +2,7 @@
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // Returns the rigid motion from rest that the posed surface has at a handle's region, in the unit of the scaled mesh.
 RigidMotion Pose::fit_region(const Handle& handle) const {
@@ -97,4 +97,4 @@ RigidMotion PoseStack::fit_region(const Entry& entry, Span<const std::int32_t> r
   return motion;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

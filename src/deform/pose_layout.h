@@ -2,10 +2,11 @@
 #pragma once
 #include "deform/pose.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct Pose::Layout {
-  explicit Layout(const Handles& list, std::shared_ptr<SiteSolver> solver, const Core& core, Memory& memory)
+  explicit Layout(const Handles& list, std::shared_ptr<solve::SiteSolver> solver, const surface::Core& core,
+                  Memory& memory)
       : handles(list, &memory),
         sites(std::move(solver)),
         reach(core.mesh, handles, memory),
@@ -13,8 +14,9 @@ struct Pose::Layout {
         weights(memory),
         boxes(&memory) {}
   Handles handles;
-  std::shared_ptr<SiteSolver> sites;
-  std::shared_ptr<SiteSolver> plain_sites;  // the same on the core whose factor this core extends; null: not made yet
+  std::shared_ptr<solve::SiteSolver> sites;
+  std::shared_ptr<solve::SiteSolver>
+      plain_sites;  // the same on the core whose factor this core extends; null: not made yet
   Reach reach;
   HandleFields fields;
   ClusterWeights weights;
@@ -24,4 +26,4 @@ struct Pose::Layout {
   std::shared_ptr<const PoseScheme::System> rigid;  // null: without one
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -3,7 +3,7 @@
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 std::uint32_t Pose::limb_steps(std::uint32_t number) const {
   return state_->handles[require(number, HF_NO_INDEX)].limb_steps;
@@ -55,4 +55,4 @@ std::uint32_t PoseStack::limb_steps(std::uint32_t number) const {
   return entry.layer > 0 ? 0 : base_->limb_steps(entry.inner[0]);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -3,7 +3,7 @@
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 void Pose::set_rigid(std::shared_ptr<const RigidPieces> rigid) {
   Buffer<Vec3> scratch(memory(), rigid ? rigid->scratch_size() : 0);
@@ -73,4 +73,4 @@ void PoseStack::take_whole_pieces(Span<const std::uint32_t> start, Span<const st
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

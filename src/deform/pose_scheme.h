@@ -7,7 +7,7 @@
 #include "deform/bands.h"
 #include "deform/pose_solver.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 class PoseScheme {
  public:
@@ -27,14 +27,14 @@ class PoseScheme {
     virtual std::shared_ptr<State> rest(Memory& memory) const = 0;
     // Fits the motions to given positions, in the unit of the scaled mesh. A pose continues from them after its handles
     // changed.
-    virtual void fit(const Mesh& mesh, const Vec3* positions, State& state) const noexcept = 0;
+    virtual void fit(const mesh::Mesh& mesh, const Vec3* positions, State& state) const noexcept = 0;
     // Solves the pose. transforms: one per cluster; the solve reads the transforms of handles and writes the others.
-    virtual SolveReport solve(const Mesh& mesh, const ClusterWeights& weights, std::uint32_t iterations,
+    virtual SolveReport solve(const mesh::Mesh& mesh, const ClusterWeights& weights, std::uint32_t iterations,
                               double tolerance, State& state, Affine* transforms) const noexcept = 0;
   };
 
   virtual ~PoseScheme() = default;
-  virtual std::shared_ptr<const System> prepare(const Core& core, const ClusterWeights& weights,
+  virtual std::shared_ptr<const System> prepare(const surface::Core& core, const ClusterWeights& weights,
                                                 Memory& memory) const = 0;
 
   // The kind of its bands and the default of their number. The iterations of a frame unless the pose has its own
@@ -47,4 +47,4 @@ class PoseScheme {
       : bands(own), default_iterations(iterations), idle_limit(idle) {}
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

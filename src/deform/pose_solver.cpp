@@ -6,7 +6,7 @@
 #include "base/compiler.h"
 #include "deform/rotation_batch.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -263,8 +263,8 @@ double fit_rotations(const SmoothSystem& system, SmoothState& state) noexcept {
 
 }  // namespace
 
-SmoothSystem::SmoothSystem(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
-                           const HandleFields& fields, Memory& memory)
+SmoothSystem::SmoothSystem(const surface::Core& core, const Rest& rest, const ClusterWeights& weights,
+                           const Groups& groups, const HandleFields& fields, Memory& memory)
     : subspace(make_subspace(core, rest, weights, groups, memory)),
       handle_count(weights.handle_count),
       free_count(weights.free_count()),
@@ -364,4 +364,4 @@ SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, dou
   return report;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -19,11 +19,11 @@
 #include "deform/strain.h"
 #include "deform/subspace.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // The prepared system for one set of handles. It never changes.
 struct SmoothSystem {
-  SmoothSystem(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
+  SmoothSystem(const surface::Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
                const HandleFields& fields, Memory& memory);
   Subspace subspace;
   std::int32_t handle_count, free_count;
@@ -99,4 +99,4 @@ void set_turn_limit(const SmoothSystem& system, Span<const Vec3> turns, SmoothSt
 SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state,
                        Affine* transforms) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

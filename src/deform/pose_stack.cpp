@@ -8,11 +8,11 @@
 #include "base/timer.h"
 #include "deform/normals.h"
 
-namespace hf_inner {
-PoseStack::PoseStack(std::shared_ptr<const Core> core, std::shared_ptr<Pose> base)
+namespace hf_inner::deform {
+PoseStack::PoseStack(std::shared_ptr<const surface::Core> core, std::shared_ptr<Pose> base)
     : core_(std::move(core)), base_(std::move(base)), entries_(core_->memory.get()) {}
 
-std::shared_ptr<PoseStack> PoseStack::make(std::shared_ptr<const Core> core, const PoseOptions& options) {
+std::shared_ptr<PoseStack> PoseStack::make(std::shared_ptr<const surface::Core> core, const PoseOptions& options) {
   std::shared_ptr<Pose> base = Pose::make(core, options);
   return make_owner_in<PoseStack>(core->memory, core, std::move(base));
 }
@@ -28,7 +28,7 @@ std::shared_ptr<PoseStack> PoseStack::clone() const {
   return copy;
 }
 
-void PoseStack::move_to(std::shared_ptr<const Core> core) {
+void PoseStack::move_to(std::shared_ptr<const surface::Core> core) {
   const std::shared_ptr<const Rest> rest = base_->rest_on(*core);
   std::shared_ptr<Pose> base = base_->on(core, rest);
   std::array<std::shared_ptr<Layer>, layer_limit> layers;
@@ -400,4 +400,4 @@ DeformReport PoseStack::deform_all(const DeformRequest& request) {
   return report;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -21,7 +21,7 @@
 
 #include "deform/pose.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // These two functions convert a motion p -> R (p - c) + c + t about a centroid c to p -> R p + t' about the origin, and
 // back.
@@ -34,7 +34,7 @@ inline HandleTransform transform_of(const RigidMotion& motion, Vec3 centroid) no
 
 class PoseStack {
  public:
-  static std::shared_ptr<PoseStack> make(std::shared_ptr<const Core> core, const PoseOptions& options);
+  static std::shared_ptr<PoseStack> make(std::shared_ptr<const surface::Core> core, const PoseOptions& options);
   std::shared_ptr<PoseStack> clone() const;
 
   // Adds handles to a layer (0 coarsest), like Pose::add_handles. Throws HF_ERROR_INVALID_ARGUMENT for a layer beyond
@@ -70,7 +70,7 @@ class PoseStack {
   DeformReport deform(const DeformRequest& request);
 
   // Goes to another core of the same geometry, with all handles and their transforms.
-  void move_to(std::shared_ptr<const Core> core);
+  void move_to(std::shared_ptr<const surface::Core> core);
 
   std::uint32_t handle_count() const noexcept { return static_cast<std::uint32_t>(entries_.size()); }
   std::uint32_t layer_of(std::uint32_t number) const;
@@ -80,12 +80,12 @@ class PoseStack {
   FieldColumn<const double> field(std::uint32_t number) const;  // of the pose of the handle's own layer
   // Returns the motion from rest to where the handle was in the last deform().
   HandleTransform placed(std::uint32_t number) const;
-  const Core& core() const noexcept { return *core_; }
+  const surface::Core& core() const noexcept { return *core_; }
   const PoseOptions& options() const noexcept { return base_->options(); }
   const Pose& base() const noexcept { return *base_; }
   bool has_layers() const noexcept;
 
-  explicit PoseStack(std::shared_ptr<const Core> core, std::shared_ptr<Pose> base);  // use make()
+  explicit PoseStack(std::shared_ptr<const surface::Core> core, std::shared_ptr<Pose> base);  // use make()
 
  private:
   struct Entry {
@@ -128,7 +128,7 @@ class PoseStack {
   bool update(std::uint32_t k, Span<const Vec3> below, bool below_changed, const DeformRequest& request);
   void combine(Layer& layer, Span<const Vec3> below) noexcept;
 
-  std::shared_ptr<const Core> core_;
+  std::shared_ptr<const surface::Core> core_;
   std::shared_ptr<Pose> base_;
   Vector<Entry> entries_;
   std::array<std::shared_ptr<Layer>, layer_limit> layers_;  // [0] unused
@@ -142,4 +142,4 @@ class PoseStack {
   bool followed_ = false;      // they went on from the frame before
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

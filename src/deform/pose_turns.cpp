@@ -3,7 +3,7 @@
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 void Pose::check_free_turn(bool free_turn) const {
   if (free_turn && options_.scheme)
@@ -182,4 +182,4 @@ void PoseStack::take_turns(std::uint32_t k) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

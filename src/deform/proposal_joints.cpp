@@ -6,7 +6,7 @@
 #include "deform/constants.h"
 #include "deform/handles.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // The joints from the roots outwards, of one depth the longest bone first. If two joints are at one place, the first is
@@ -37,7 +37,7 @@ Vector<std::uint32_t> outwards(const JointList& joints, Memory& memory) {
   return order;
 }
 
-void add_joint(const Core& core, std::uint32_t number, Vec3 place, Vector<Candidate>& found) {
+void add_joint(const surface::Core& core, std::uint32_t number, Vec3 place, Vector<Candidate>& found) {
   const std::int32_t vertex = vertex_near(core, place);
   const double depth = norm(core.mesh.positions[at(vertex)] - place);
   if (depth > joint_reach) return;  // a helper away from the surface
@@ -61,7 +61,7 @@ bool comes_first(const Candidate& a, const Candidate& b) noexcept {
   return a.reason != b.reason ? a.reason < b.reason : a.joint < b.joint;
 }
 
-JointList joint_list(const Core& core, Span<const double> joints, Span<const std::uint32_t> parents) {
+JointList joint_list(const surface::Core& core, Span<const double> joints, Span<const std::uint32_t> parents) {
   JointList out(core.memory.get());
   for (std::uint32_t j = 0; j < parents.size(); ++j) {
     const double* p = joints.data() + 3 * std::size_t{j};
@@ -73,13 +73,13 @@ JointList joint_list(const Core& core, Span<const double> joints, Span<const std
   return out;
 }
 
-JointList joint_list(const Core& core, const KnownSkeleton& known, const MovedParts& parts) {
+JointList joint_list(const surface::Core& core, const skeleton::KnownSkeleton& known, const MovedParts& parts) {
   JointList out(core.memory.get());
-  const Character& character = known.character;
+  const skeleton::Character& character = known.character;
   const std::size_t count = character.kinds.size();
   Vector<std::uint32_t> place(count, no_joint, core.memory.get());
   for (std::uint32_t j = 0; j < count; ++j) {
-    if (character.kinds[j] != JointKind::body) continue;
+    if (character.kinds[j] != skeleton::JointKind::body) continue;
     place[j] = static_cast<std::uint32_t>(out.numbers.size());
     out.numbers.push_back(j);
   }
@@ -87,15 +87,16 @@ JointList joint_list(const Core& core, const KnownSkeleton& known, const MovedPa
     const std::int32_t carrier = character.carriers[j];
     out.places.push_back(core.mesh.to_inner(character.frames[j].origin));
     out.parents.push_back(carrier < 0 ? no_joint : place[at(carrier)]);
-    const Role role = parts.knows_roles() ? character.roles[j] : Role::other;
-    const bool inside = role == Role::leg || role == Role::arm || role == Role::shoulder || role == Role::neck;
+    const skeleton::Role role = parts.knows_roles() ? character.roles[j] : skeleton::Role::other;
+    const bool inside = role == skeleton::Role::leg || role == skeleton::Role::arm ||
+                        role == skeleton::Role::shoulder || role == skeleton::Role::neck;
     const std::int32_t part = parts.part_of_joint(j);
     out.left_out.push_back(inside || (part >= 0 && parts.vertices_of(at(part)).size() >= least_part));
   }
   return out;
 }
 
-void add_joints(const Core& core, const JointList& joints, Vector<Candidate>& found) {
+void add_joints(const surface::Core& core, const JointList& joints, Vector<Candidate>& found) {
   const std::size_t count = joints.parents.size();
   Vector<std::uint32_t> children(count, 0, core.memory.get());
   for (const std::uint32_t parent : joints.parents) {
@@ -125,4 +126,4 @@ void add_joints(const Core& core, const JointList& joints, Vector<Candidate>& fo
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

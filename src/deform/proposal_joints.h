@@ -8,7 +8,7 @@
 #include "deform/moved_parts.h"
 #include "deform/proposals.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // A place that may become a proposal. All lengths are in the unit of the inner mesh, whose box diagonal is 1.
 struct Candidate {
@@ -34,12 +34,12 @@ struct JointList {
   Vector<std::uint8_t> left_out;  // 1: the joint counts as a parent, but becomes no candidate
 };
 // Lists the joints of the caller.
-JointList joint_list(const Core& core, Span<const double> joints, Span<const std::uint32_t> parents);
+JointList joint_list(const surface::Core& core, Span<const double> joints, Span<const std::uint32_t> parents);
 // Lists the joints that move the body. Joints of a head, a hand or a foot are left out, because the whole part is
 // proposed. Where roles are known, joints of arms, legs, shoulders and necks are left out too.
-JointList joint_list(const Core& core, const KnownSkeleton& known, const MovedParts& parts);
+JointList joint_list(const surface::Core& core, const skeleton::KnownSkeleton& known, const MovedParts& parts);
 
 // Gives joints to the candidates in `found`, and appends the joints that become candidates.
-void add_joints(const Core& core, const JointList& joints, Vector<Candidate>& found);
+void add_joints(const surface::Core& core, const JointList& joints, Vector<Candidate>& found);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

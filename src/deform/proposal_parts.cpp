@@ -7,16 +7,19 @@
 #include "base/progress.h"
 #include "deform/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 constexpr std::int32_t nobody = -1;
 
-bool is_hand(Role role) noexcept { return role == Role::arm || role == Role::hand || role == Role::finger; }
+bool is_hand(skeleton::Role role) noexcept {
+  return role == skeleton::Role::arm || role == skeleton::Role::hand || role == skeleton::Role::finger;
+}
 
 // Roles of limbs that are dragged at their end.
-bool ends_free(Role role) noexcept {
-  return role == Role::tail || role == Role::ear || role == Role::wing || role == Role::antenna || role == Role::fin;
+bool ends_free(skeleton::Role role) noexcept {
+  return role == skeleton::Role::tail || role == skeleton::Role::ear || role == skeleton::Role::wing ||
+         role == skeleton::Role::antenna || role == skeleton::Role::fin;
 }
 
 // The region that a candidate gets where no other is near.
@@ -30,7 +33,7 @@ Vector<std::int32_t> region_of(RegionSearch& search, const Candidate& candidate)
 }
 
 // A candidate for a part on which none was found. Its place is the middle of the part.
-Candidate part_candidate(const Core& core, Span<const std::int32_t> vertices) {
+Candidate part_candidate(const surface::Core& core, Span<const std::int32_t> vertices) {
   const SharedVector<Vec3>& positions = core.mesh.positions;
   Vec3 sum;
   for (const std::int32_t v : vertices) sum = sum + positions[at(v)];
@@ -148,8 +151,8 @@ class Chooser {
   }
 
   RegionSearch& search_;
-  const Core& core_;
-  const Mesh& mesh_;
+  const surface::Core& core_;
+  const mesh::Mesh& mesh_;
   Memory& memory_;
   const Vector<Candidate>& found_;
   MovedParts* const parts_;
@@ -170,8 +173,10 @@ void leave_out_unmoved(RegionSearch& search, const MovedParts& parts, Vector<Can
 void let_free(RegionSearch& search, const MovedParts& parts, Vector<Candidate>& found) {
   Vector<std::size_t> freed(search.core().memory.get());
   bool held = false, legs = false;
-  const auto is_leg = [](Role role) { return role == Role::leg || role == Role::foot || role == Role::toe; };
-  Vector<Role> role(found.size(), Role::other, search.core().memory.get());
+  const auto is_leg = [](skeleton::Role role) {
+    return role == skeleton::Role::leg || role == skeleton::Role::foot || role == skeleton::Role::toe;
+  };
+  Vector<skeleton::Role> role(found.size(), skeleton::Role::other, search.core().memory.get());
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k].pinned) continue;
     poll();
@@ -206,7 +211,7 @@ void take_parts(RegionSearch& search, MovedParts& parts, Span<const double> heig
     taken[at(part)] = 1;
     const bool is_low =
         std::any_of(vertices.begin(), vertices.end(), [&](std::int32_t v) { return height[at(v)] <= low; });
-    if (parts.role_of_part(at(part)).role == Role::foot && is_low) {
+    if (parts.role_of_part(at(part)).role == skeleton::Role::foot && is_low) {
       candidate.pinned = true;
       candidate.reason = HandleReason::foot;
     }
@@ -243,10 +248,11 @@ void take_parts(RegionSearch& search, MovedParts& parts, Span<const double> heig
   found = std::move(out);
 }
 
-void leave_one_each(RegionSearch& search, const KnownSkeleton& known, MovedParts& parts, Vector<Candidate>& found) {
-  const Character& character = known.character;
+void leave_one_each(RegionSearch& search, const skeleton::KnownSkeleton& known, MovedParts& parts,
+                    Vector<Candidate>& found) {
+  const skeleton::Character& character = known.character;
   Vector<std::uint32_t> rank(character.kinds.size(), 0, search.core().memory.get());  // of a joint in its chain
-  for (const Chain& chain : character.chains) {
+  for (const skeleton::Chain& chain : character.chains) {
     for (std::uint32_t k = 0; k < chain.count; ++k) rank[character.chain_joints[chain.first + k]] = k + 1;
   }
   std::sort(found.begin(), found.end(), comes_first);
@@ -275,4 +281,4 @@ Proposals choose_regions(RegionSearch& search, const Vector<Candidate>& found, M
   return Chooser(search, found, parts).run(limit);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

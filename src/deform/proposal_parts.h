@@ -6,7 +6,7 @@
 #include "deform/handles.h"
 #include "deform/proposal_joints.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // Removes candidates on parts that no joint of the skin moves.
 void leave_out_unmoved(RegionSearch& search, const MovedParts& parts, Vector<Candidate>& found);
@@ -21,9 +21,10 @@ void take_parts(RegionSearch& search, MovedParts& parts, Span<const double> heig
                 Vector<Candidate>& found);
 
 // Leaves one candidate that is not pinned on each tail, ear, wing, antenna or fin: the nearest to its end.
-void leave_one_each(RegionSearch& search, const KnownSkeleton& known, MovedParts& parts, Vector<Candidate>& found);
+void leave_one_each(RegionSearch& search, const skeleton::KnownSkeleton& known, MovedParts& parts,
+                    Vector<Candidate>& found);
 
 // Chooses at most `limit` proposals, in the order of the candidates. parts: null without a skeleton.
 Proposals choose_regions(RegionSearch& search, const Vector<Candidate>& found, MovedParts* parts, std::size_t limit);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -14,14 +14,14 @@
 #include "field/extremities.h"
 #include "field/peaks.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 double distance(Vec3 a, Vec3 b) noexcept { return norm(a - b); }
 
 class Proposer {
  public:
-  Proposer(const Core& core, const ProposalOptions& options)
+  Proposer(const surface::Core& core, const ProposalOptions& options)
       : core_(core),
         search_(core),
         mesh_(core.mesh),
@@ -32,9 +32,9 @@ class Proposer {
 
   Proposals run() {
     constexpr float tips_found = 0.8f;  // reported progress, by the usual share of time
-    Extremities tips = [&] {
+    field::Extremities tips = [&] {
       const ProgressRange range(0.0f, tips_found);
-      return poisson_extremities(core_, options_.least_length_share);
+      return field::poisson_extremities(core_, options_.least_length_share);
     }();
     find_feet();
     add_tips(tips);
@@ -66,10 +66,10 @@ class Proposer {
       highest_of = std::max(highest_of, height_[v]);
       depth[v] = -height_[v];
     }
-    for (const Peak& peak : find_peaks(core_.topology(), depth, memory_)) {
+    for (const field::Peak& peak : field::find_peaks(core_.topology(), depth, memory_)) {
       const double low = height_[at(peak.vertex)];
       // a component that stands on the ground, a shoe for example, needs no leg
-      const bool whole = peak.saddle == Mesh::none;
+      const bool whole = peak.saddle == mesh::Mesh::none;
       const double saddle = whole ? top[at(mesh_.component[at(peak.vertex)])] : height_[at(peak.saddle)];
       if (low - ground_ > ground_share * tall_ || saddle - low < (whole ? shoe_share : leg_share) * tall_) continue;
       found_.push_back(foot_at(peak.vertex, saddle - low));
@@ -129,9 +129,9 @@ class Proposer {
 
   // ---- tips, ends, joints, the middle ----
 
-  void add_tips(const Extremities& tips) {
+  void add_tips(const field::Extremities& tips) {
     const std::size_t feet = found_.size();
-    for (const Extremity& tip : tips.points) {
+    for (const field::Extremity& tip : tips.points) {
       const Vec3 p = mesh_.positions[at(tip.vertex)];
       const bool low = height_[at(tip.vertex)] - ground_ <= low_tip_share * tall_;
       bool taken = false;
@@ -250,7 +250,7 @@ class Proposer {
     };
     Vector<Index> held = near_middle();
     const Vector<Index> around = search_.near(middle->position, middle->radius);
-    if (parts.main_role_of(around).role != Role::spine || held.size() < least_region) {
+    if (parts.main_role_of(around).role != skeleton::Role::spine || held.size() < least_region) {
       const Trunk trunk = trunk_of(core_, spine, height_);
       if (!trunk.found) return;
       middle->position = trunk.middle;
@@ -274,7 +274,7 @@ class Proposer {
     return choose_regions(search_, found_, nullptr, options_.limit);
   }
 
-  Proposals follow(const KnownSkeleton& skeleton) {
+  Proposals follow(const skeleton::KnownSkeleton& skeleton) {
     MovedParts parts(core_, skeleton);
     leave_out_unmoved(search_, parts, found_);
     if (parts.knows_roles()) {
@@ -288,9 +288,9 @@ class Proposer {
     return choose_regions(search_, found_, &parts, options_.limit);
   }
 
-  const Core& core_;
+  const surface::Core& core_;
   RegionSearch search_;
-  const Mesh& mesh_;
+  const mesh::Mesh& mesh_;
   const ProposalOptions& options_;
   Memory& memory_;
   Vector<Candidate> found_;
@@ -300,6 +300,8 @@ class Proposer {
 
 }  // namespace
 
-Proposals propose_handles(const Core& core, const ProposalOptions& options) { return Proposer(core, options).run(); }
+Proposals propose_handles(const surface::Core& core, const ProposalOptions& options) {
+  return Proposer(core, options).run();
+}
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

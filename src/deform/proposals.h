@@ -12,10 +12,10 @@
 #include <cstdint>
 
 #include "base/span.h"
-#include "engine/core.h"
 #include "skeleton/known_skeleton.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // The values equal HF_HANDLE_REASON_*.
 enum class HandleReason : std::int32_t { foot = 0, tip = 1, end = 2, joint = 3, middle = 4 };
@@ -24,9 +24,9 @@ struct HandleProposal {
   std::int32_t vertex = 0;  // inner, nearest to the position
   HandleReason reason = HandleReason::tip;
   bool pinned = false;
-  std::uint32_t joint = 0xffffffffu;  // the joint that moves it, an end joint nearby, or none
-  Role role = Role::other;            // of the joint, or of its parent
-  Side side = Side::middle;
+  std::uint32_t joint = 0xffffffffu;            // the joint that moves it, an end joint nearby, or none
+  skeleton::Role role = skeleton::Role::other;  // of the joint, or of its parent
+  skeleton::Side side = skeleton::Side::middle;
   Vec3 position;                  // in the unit of the caller's mesh
   double radius = 0, length = 0;  // same unit
   double following = 1;           // for a drag
@@ -39,16 +39,16 @@ struct Proposals {
 };
 
 struct ProposalOptions {
-  Vec3 up{0, 1, 0};                         // of length 1
-  double least_length_share = 0;            // share of the box diagonal
-  std::size_t limit = 0;                    // most proposals
-  Span<const double> joints;                // [n][3], in the unit of the caller's mesh
-  Span<const std::uint32_t> parents;        // [n]; 0xffffffff for a root
-  const KnownSkeleton* skeleton = nullptr;  // instead of joints; its skin has the vertices of the mesh
+  Vec3 up{0, 1, 0};                                   // of length 1
+  double least_length_share = 0;                      // share of the box diagonal
+  std::size_t limit = 0;                              // most proposals
+  Span<const double> joints;                          // [n][3], in the unit of the caller's mesh
+  Span<const std::uint32_t> parents;                  // [n]; 0xffffffff for a root
+  const skeleton::KnownSkeleton* skeleton = nullptr;  // instead of joints; its skin has the vertices of the mesh
 };
 
 // Returns pinned proposals first, then the others, each by length, the longest first. Throws as poisson_extremities
 // does.
-Proposals propose_handles(const Core& core, const ProposalOptions& options);
+Proposals propose_handles(const surface::Core& core, const ProposalOptions& options);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -6,7 +6,7 @@
 #include "deform/constants.h"
 #include "deform/rotation_batch.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 Vec3 vec3_at(const Buffer<float>& list, std::int32_t v) noexcept {
@@ -53,8 +53,8 @@ Mat3 linear_part(const Affine& affine) noexcept {
   return m;
 }
 
-void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept {
-  const Topology& topology = core.topology();
+void add_ring(const surface::Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept {
+  const mesh::Topology& topology = core.topology();
   for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
     const std::int32_t u = topology.neighbour[k];
     add_outer(sum, rest.stiffness[topology.neighbour_edge[k]], positions[v] - positions[u],
@@ -62,7 +62,7 @@ void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::in
   }
 }
 
-Refinement::Refinement(const Core& core, Memory& memory)
+Refinement::Refinement(const surface::Core& core, Memory& memory)
     : memory_(&memory),
       rotation_(static_cast<std::size_t>(core.size()), Mat3::Zero(), &memory),
       field_(memory, 3 * static_cast<std::size_t>(core.size())),
@@ -92,7 +92,7 @@ void Refinement::fit(std::int32_t slot_count, std::uint32_t steps, const Followe
 }
 
 void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) {
-  const Core& core = input.core;
+  const surface::Core& core = input.core;
   const SymmetricMatrix& k = core.matrix();
   const Vector<std::int32_t>* const list = input.limbs ? &input.limbs->around : nullptr;
   for_listed(input, list, [&](std::int32_t first, std::int32_t last) {
@@ -136,7 +136,7 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
 
 // Computes the right-hand side b - K x, in the unit of the scaled mesh; with limbs only the rows of their vertices.
 void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* positions, double* load) {
-  const Core& core = input.core;
+  const surface::Core& core = input.core;
   const SymmetricMatrix& k = core.matrix();
   const double own_unit = 2.0 / core.mesh.scale;  // contains the 1/2 of the two rotations
   const Vector<std::int32_t>* const list = moved_by(input);
@@ -246,16 +246,16 @@ void Refinement::take_steps(const RefineInput& input, std::uint32_t steps, Vec3*
 // Solves for the correction. The vertices around the handles already are where they belong, so it is zero there.
 void Refinement::respond(const RefineInput& input, double* load) {
   if (!input.limbs) return input.sites.respond(load, nullptr, 3, field_.data(), values_.data());
-  Workspace scratch(input.core.workspaces, 3 * input.limbs->vertex.size());
+  surface::Workspace scratch(input.core.workspaces, 3 * input.limbs->vertex.size());
   input.limbs->factor->solve(load, field_.data(), 3, scratch.data(), *input.core.jobs);
 }
 
 void Refinement::step(const RefineInput& input, Vec3* positions) {
-  const Core& core = input.core;
-  const Mesh& mesh = core.mesh;
+  const surface::Core& core = input.core;
+  const mesh::Mesh& mesh = core.mesh;
   const Vector<std::int32_t>* const list = moved_by(input);
   fit_rotations(input, positions);
-  Workspace load(core.workspaces, 3 * static_cast<std::size_t>(core.size()));
+  surface::Workspace load(core.workspaces, 3 * static_cast<std::size_t>(core.size()));
   set_right_hand_side(input, positions, load.data());
   respond(input, load.data());
   for_listed(input, list, [&](std::int32_t first, std::int32_t last) {
@@ -268,7 +268,7 @@ void Refinement::step(const RefineInput& input, Vec3* positions) {
   });
 }
 
-void GroupStart::choose(const Core& core, const Groups& groups, const Vector<std::int32_t>& active) {
+void GroupStart::choose(const surface::Core& core, const Groups& groups, const Vector<std::int32_t>& active) {
   rotation.assign(groups.count(), Quaternion());
   group_.assign(active.begin(), active.end());
   Vector<std::int32_t> size(groups.count(), 0, start_.get_allocator()),
@@ -293,7 +293,7 @@ void GroupStart::choose(const Core& core, const Groups& groups, const Vector<std
   }
 }
 
-void GroupStart::fit(const Core& core, const Rest& rest, Span<const Vec3> surface) noexcept {
+void GroupStart::fit(const surface::Core& core, const Rest& rest, Span<const Vec3> surface) noexcept {
   for (std::size_t g = 0; g < group_.size(); ++g) {
     Mat3 sum;
     for (std::int32_t k = start_[g]; k < start_[g + 1]; ++k) add_ring(core, rest, surface.data(), vertex_[k], sum);
@@ -301,4 +301,4 @@ void GroupStart::fit(const Core& core, const Rest& rest, Span<const Vec3> surfac
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -35,14 +35,14 @@
 #include "deform/limbs.h"
 #include "deform/rotation.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct RefineInput {
-  const Core& core;
+  const surface::Core& core;
   const Rest& rest;
   const Reach& reach;
   const ClusterWeights& weights;
-  const SiteSolver& sites;
+  const solve::SiteSolver& sites;
   const Handles& handles;
   const Groups* groups;                      // groups of vertices that share a rotation; null: no starting rotations
   const Vector<Quaternion>* group_rotation;  // rotation by group, where the search starts
@@ -79,7 +79,7 @@ struct Followed {
 
 class Refinement {
  public:
-  Refinement(const Core& core, Memory& memory);
+  Refinement(const surface::Core& core, Memory& memory);
   // Makes room for the values of this many sites, for this many steps, and for `followed`, which may be null.
   void fit(std::int32_t slot_count, std::uint32_t steps, const Followed* followed);
   bool has_room(std::int32_t slot_count, std::uint32_t steps, const Followed* followed) const noexcept {
@@ -116,8 +116,8 @@ class GroupStart {
   explicit GroupStart(Memory& memory)
       : rotation(&memory), motion(&memory), own_unit(&memory), group_(&memory), start_(&memory), vertex_(&memory) {}
   // Chooses sample vertices for the groups of vertices in `active`. `rotation` gets an entry for every group.
-  void choose(const Core& core, const Groups& groups, const Vector<std::int32_t>& active);
-  void fit(const Core& core, const Rest& rest, Span<const Vec3> surface) noexcept;
+  void choose(const surface::Core& core, const Groups& groups, const Vector<std::int32_t>& active);
+  void fit(const surface::Core& core, const Rest& rest, Span<const Vec3> surface) noexcept;
   Vector<Quaternion> rotation;  // by group of vertices; without a scheme
   Vector<RigidMotion> motion;   // by cluster that is no handle; with a scheme
   Vector<Vec3> own_unit;        // scratch with a scheme
@@ -131,6 +131,6 @@ Mat3 linear_part(const Affine& affine) noexcept;
 
 // Adds the moment matrix of the edges at one vertex: sum_u w_vu (x_v - x_u)(p_v - p_u)'. The rotation nearest to it is
 // the rotation of these edges.
-void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept;
+void add_ring(const surface::Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

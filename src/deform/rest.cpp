@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
-void sort_components(const Mesh& mesh, RestShape& rest) {
+void sort_components(const mesh::Mesh& mesh, RestShape& rest) {
   const std::int32_t n = mesh.vertex_count(), components = mesh.component_count();
   rest.component_start.assign(components + 1, 0);
   rest.component_vertex.resize(n);
@@ -20,7 +20,7 @@ void sort_components(const Mesh& mesh, RestShape& rest) {
     ++rest.component_triangles[mesh.component[mesh.triangle(t)[0]]];
 }
 
-void list_triangles_by_piece(const Mesh& mesh, RestShape& rest) {
+void list_triangles_by_piece(const mesh::Mesh& mesh, RestShape& rest) {
   const std::int32_t pieces = (mesh.vertex_count() + vertex_piece - 1) / vertex_piece;
   const auto for_entries = [&](bool border, auto&& use) {
     for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -46,7 +46,7 @@ void list_triangles_by_piece(const Mesh& mesh, RestShape& rest) {
   }
 }
 
-void list_faces(const Mesh& mesh, RestShape& rest) {
+void list_faces(const mesh::Mesh& mesh, RestShape& rest) {
   if (mesh.faces.empty()) return;
   const std::size_t n = mesh.positions.size();
   rest.face_start.assign(n + 1, 0);
@@ -59,7 +59,7 @@ void list_faces(const Mesh& mesh, RestShape& rest) {
   }
 }
 
-void sample_triangles(const Mesh& mesh, RestShape& rest) {
+void sample_triangles(const mesh::Mesh& mesh, RestShape& rest) {
   std::uint32_t share = 0;
   const std::int64_t count = mesh.triangle_count();
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -79,7 +79,7 @@ void sample_triangles(const Mesh& mesh, RestShape& rest) {
 
 }  // namespace
 
-RestShape::RestShape(const Core& core, Memory& memory)
+RestShape::RestShape(const surface::Core& core, Memory& memory)
     : component_start(&memory),
       component_vertex(&memory),
       component_triangles(&memory),
@@ -104,7 +104,7 @@ RestShape::RestShape(const Core& core, Memory& memory)
   });
 }
 
-Rest::Rest(std::shared_ptr<const RestShape> of, const Core& core, Memory& memory)
+Rest::Rest(std::shared_ptr<const RestShape> of, const surface::Core& core, Memory& memory)
     : shape(std::move(of)),
       component_start(shape->component_start),
       component_vertex(shape->component_vertex),
@@ -120,16 +120,16 @@ Rest::Rest(std::shared_ptr<const RestShape> of, const Core& core, Memory& memory
       sampled_start(shape->sampled_start, histogram_shares + 1),
       stiffness(shape->edge_weight, &memory) {
   if (!core.stiffness) return;
-  const Topology& topology = core.topology();
+  const mesh::Topology& topology = core.topology();
   const Vector<double>& given = *core.stiffness;
   for (std::int32_t v = 0; v < core.size(); ++v) {
     if (given[v] == 1) continue;
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t e = topology.neighbour_edge[k];  // one with two stiff ends comes twice
-      const double s = edge_stiffness(given[topology.first(e)], given[topology.second(e)]);
+      const double s = surface::edge_stiffness(given[topology.first(e)], given[topology.second(e)]);
       stiffness[e] = shape->edge_weight[e] * std::clamp(s, 1 / largest_energy_stiffness, largest_energy_stiffness);
     }
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -7,13 +7,13 @@
 #include <memory>
 
 #include "deform/constants.h"
-#include "engine/core.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 // The part that depends on the geometry alone.
 struct RestShape {
-  RestShape(const Core& core, Memory& memory);
+  RestShape(const surface::Core& core, Memory& memory);
 
   // The vertices of component c are component_vertex[component_start[c] .. component_start[c + 1]), ascending.
   Vector<std::int32_t> component_start;
@@ -49,9 +49,10 @@ struct RestShape {
 
 struct Rest {
   using SampledTriangle = RestShape::SampledTriangle;
-  Rest(const Core& core, Memory& memory) : Rest(make_shared_in<RestShape>(memory, core, memory), core, memory) {}
+  Rest(const surface::Core& core, Memory& memory)
+      : Rest(make_shared_in<RestShape>(memory, core, memory), core, memory) {}
   // shape: of the core's geometry.
-  Rest(std::shared_ptr<const RestShape> shape, const Core& core, Memory& memory);
+  Rest(std::shared_ptr<const RestShape> shape, const surface::Core& core, Memory& memory);
 
   std::shared_ptr<const RestShape> shape;
   Span<const std::int32_t> component_start, component_vertex, component_triangles;  // this and the next: of the shape
@@ -84,4 +85,4 @@ inline double scattered(std::uint32_t index) noexcept {
   return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1.0p-53;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -4,16 +4,17 @@
 
 #include "deform/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
-RigidPieces::RigidPieces(const Core& core, Span<const std::int32_t> vertices, const Mesh& rest, Memory& memory)
+RigidPieces::RigidPieces(const surface::Core& core, Span<const std::int32_t> vertices, const mesh::Mesh& rest,
+                         Memory& memory)
     : piece_(static_cast<std::size_t>(core.size()), -1, &memory),
       start_(1, 0, &memory),
       vertex_(&memory),
       rest_(&memory),
       weight_(&memory) {
   // the plain geometry has pieces as components, in the same order of vertices
-  const Mesh& plain = core.geometry->unlinked().mesh;
+  const mesh::Mesh& plain = core.geometry->unlinked().mesh;
   Vector<std::int32_t> number(static_cast<std::size_t>(plain.component_count()), -1, &memory);
   std::int32_t count = 0;
   for (const std::int32_t v : vertices) {
@@ -39,12 +40,12 @@ RigidPieces::RigidPieces(const Core& core, Span<const std::int32_t> vertices, co
   Vector<double> held(vertex_.size(), 0.0, &memory), held_sum(size.size(), 0.0, &memory),
       area_sum(size.size(), 0.0, &memory);
   const auto hold = [&](std::int32_t v, double weight) {
-    if (v == Mesh::none || piece_[v] < 0) return;
+    if (v == mesh::Mesh::none || piece_[v] < 0) return;
     held[place[v]] += weight;
     held_sum[piece_[v]] += weight;
   };
   if (core.geometry->links) {
-    for (const Link& link : core.geometry->links->links) {
+    for (const mesh::Link& link : core.geometry->links->links) {
       hold(link.vertex, link.weight);
       for (int c = 0; c < 3; ++c) hold(link.corner[c], link.weight * link.share[c]);
     }
@@ -77,4 +78,4 @@ void RigidPieces::make_rigid(Vec3* positions, Vec3* scratch, RigidMotion* motion
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -11,14 +11,14 @@
 #include "deform/rest.h"
 #include "deform/rotation.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 class RigidPieces {
  public:
   // The pieces of these inner vertices, which may name a piece twice. core: with the links. rest: the mesh of the core,
   // perhaps in another pose.
-  RigidPieces(const Core& core, Span<const std::int32_t> vertices, const Mesh& rest, Memory& memory);
-  RigidPieces(const Core& core, Span<const std::int32_t> vertices, Memory& memory)
+  RigidPieces(const surface::Core& core, Span<const std::int32_t> vertices, const mesh::Mesh& rest, Memory& memory);
+  RigidPieces(const surface::Core& core, Span<const std::int32_t> vertices, Memory& memory)
       : RigidPieces(core, vertices, core.mesh, memory) {}
   std::size_t count() const noexcept { return start_.size() - 1; }
   // The piece of a vertex, or -1.
@@ -41,4 +41,4 @@ class RigidPieces {
   std::size_t largest_ = 0;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -4,7 +4,7 @@
 
 #include "base/elementary.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -166,4 +166,4 @@ RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const 
   return motion;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -16,18 +16,10 @@
 #include "deform/constants.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 inline hf_eigen::Vector3d to_eigen(Vec3 v) noexcept { return {v.x, v.y, v.z}; }
 inline Vec3 to_vec3(const hf_eigen::Vector3d& v) noexcept { return {v.x(), v.y(), v.z()}; }
-// Written out, like rotate() below, because Eigen's expressions are calls where a compiler builds for size: a step of
-// refine took four times as long in WebAssembly. The order of sums is Eigen's. Inlining all of Eigen there instead adds
-// 11 kB and no speed.
-inline Vec3 operator*(const Mat3& a, Vec3 v) noexcept {
-  const double* m = a.data();
-  return {m[0] * v.x + (m[3] * v.y + m[6] * v.z), m[1] * v.x + (m[4] * v.y + m[7] * v.z),
-          m[2] * v.x + (m[5] * v.y + m[8] * v.z)};
-}
 // Adds the outer product w x p' to the matrix a.
 inline void add_outer(Mat3& a, double w, Vec3 x, Vec3 p) noexcept {
   a.noalias() += to_eigen(w * x) * to_eigen(p).transpose();
@@ -88,4 +80,4 @@ inline Vec3 apply(const RigidMotion& motion, Vec3 p) noexcept {
 RigidMotion fit_rigid(Span<const Vec3> rest, Span<const Vec3> posed, Span<const double> weights,
                       const Quaternion& near) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -6,7 +6,7 @@
 #include "base/compiler.h"
 #include "deform/rotation_step.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 HF_VECTOR(Lanes, double, 8);
@@ -19,4 +19,4 @@ void step_rotations_avx512(const double* s, double* q, RotationStep& step, bool 
   step_lanes<Lanes>(s, q, step, take);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -6,7 +6,7 @@
 #include "deform/constants.h"
 #include "deform/rotation_step.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 #include "deform/rotation_step.inl"
@@ -88,4 +88,4 @@ void best_rotations_from(RotationBatch& batch, int count) noexcept {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

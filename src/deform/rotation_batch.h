@@ -9,7 +9,7 @@
 #pragma once
 #include "deform/rotation.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct alignas(64) RotationBatch {
   static constexpr int lanes = 8;
@@ -31,4 +31,4 @@ struct alignas(64) RotationBatch {
 // calls best_rotation() from the same start.
 void best_rotations_from(RotationBatch& batch, int count) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

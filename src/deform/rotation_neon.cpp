@@ -5,7 +5,7 @@
 #include "base/compiler.h"
 #include "deform/rotation_step.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 HF_VECTOR(Lanes, double, 2);
@@ -18,4 +18,4 @@ void step_rotations_neon(const double* s, double* q, RotationStep& step, bool ta
   step_lanes<Lanes>(s, q, step, take);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

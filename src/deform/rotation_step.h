@@ -2,7 +2,7 @@
 // builds.
 #pragma once
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct alignas(64) RotationStep {
   double u[3][8];      // rotation vector of the step
@@ -19,4 +19,4 @@ void step_rotations_avx512(const double* s, double* q, RotationStep& step, bool 
 void step_rotations_neon(const double* s, double* q, RotationStep& step, bool take) noexcept;
 StepLoop rotation_loop() noexcept;  // for the widest registers that this processor has
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

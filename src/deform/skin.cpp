@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // The next numbers fit the joints of a skin to the posed surface. With stretching joints, the skin of a lifted plane is
@@ -50,7 +50,7 @@ class JointFit {
         rest_(&memory),
         residual_(&memory),
         area_(&memory) {
-    const Core& core = pose.core();
+    const surface::Core& core = pose.core();
     const ClusterWeights& table = *pose.weights();
     joint_count_ = static_cast<std::size_t>(table.cluster_count);
     for (const Quaternion& q : axes) axes_.push_back(q.toRotationMatrix());
@@ -179,8 +179,8 @@ Vec3 skinned(const Skin& skin, std::size_t j, Vec3 p) noexcept {
 }
 
 Skin make_skin(const Pose& pose, std::uint32_t influence_count, bool stretching, Memory& memory) {
-  const Core& core = pose.core();
-  const Mesh& mesh = core.mesh;
+  const surface::Core& core = pose.core();
+  const mesh::Mesh& mesh = core.mesh;
   const ClusterWeights& weights = *pose.weights();
   const std::size_t clusters = static_cast<std::size_t>(weights.cluster_count);
   Skin skin(memory);
@@ -274,4 +274,4 @@ void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, st
   weights[0] = static_cast<float>(left / steps);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -18,7 +18,7 @@
 #include "deform/blend.h"
 #include "deform/pose.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct Skin {
   explicit Skin(Memory& memory) : pivot(&memory), rotation(&memory), place(&memory), axes(&memory), stretch(&memory) {}
@@ -40,4 +40,4 @@ Skin make_skin(const Pose& pose, std::uint32_t influence_count, bool stretching,
 // count: 4 or 8.
 void skin_weights(const Pose& pose, std::int32_t vertex, std::uint32_t count, std::uint32_t* joints, float* weights);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 Sheet make_sheet(const Mat3& moments, std::int32_t limits) noexcept {
   Sheet sheet;
@@ -67,4 +67,4 @@ Mat3 strained(const Sheet& sheet, const Stress& stress, const Mat3& r) noexcept 
   return target;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

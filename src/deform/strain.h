@@ -21,7 +21,7 @@
 #include "deform/constants.h"
 #include "deform/rotation.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct Sheet {
   Vec3 axis[2];
@@ -47,4 +47,4 @@ double follow(const Sheet& sheet, const Stress& wanted, Stress& stress) noexcept
 // is the group's rotation, X its stress in the axes E.
 Mat3 strained(const Sheet& sheet, const Stress& stress, const Mat3& r) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -6,7 +6,7 @@
 
 #include "base/compiler.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
 // The rest positions p_v and cluster weights of the vertices. With cluster transforms A, x_v = sum_k weight[k]
@@ -195,8 +195,8 @@ void add_moments(const EdgeRun& run, const Vec3* positions, const Moments& out) 
 
 class Assembly {
  public:
-  Assembly(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups, Subspace& out,
-           Memory& memory)
+  Assembly(const surface::Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
+           Subspace& out, Memory& memory)
       : core_(core),
         rest_(rest),
         weights_(weights),
@@ -266,7 +266,7 @@ class Assembly {
       std::int64_t all = 0;
       std::int32_t widest = 0;
     };
-    const Topology& topology = core_.topology();
+    const mesh::Topology& topology = core_.topology();
     const std::size_t clusters = static_cast<std::size_t>(weights_.cluster_count);
     Vector<Counts> counts(&memory_);
     counts.reserve(count_shares);
@@ -332,7 +332,7 @@ class Assembly {
       std::int32_t* row = entry_of_.data() + row_of_group_[group];
       for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) row[weights_.cluster[k]] = 0;
     };
-    const Topology& topology = core_.topology();
+    const mesh::Topology& topology = core_.topology();
     for (const std::int32_t e : groups_.border_edge) {
       const std::int32_t i = topology.first(e), j = topology.second(e);
       if (is_elastic(i)) {
@@ -379,7 +379,7 @@ class Assembly {
 
   // Lists the edges that the energy uses, in pieces of fixed size.
   void list_samples() {
-    const Topology& topology = core_.topology();
+    const mesh::Topology& topology = core_.topology();
     handle_share_.assign(core_.size(), 0.0f);
     for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
       for (std::int32_t v = first; v < last; ++v) {
@@ -460,7 +460,7 @@ class Assembly {
     for_shares([&](std::int32_t g, std::int32_t f, double area) { out_.mean[next[f]++] = {g, area}; });
   }
 
-  const Core& core_;
+  const surface::Core& core_;
   const Rest& rest_;
   const ClusterWeights& weights_;
   const Groups& groups_;
@@ -480,11 +480,11 @@ class Assembly {
 
 }  // namespace
 
-Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
+Subspace make_subspace(const surface::Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
                        Memory& memory) {
   Subspace subspace(memory);
   Assembly(core, rest, weights, groups, subspace, memory).run();
   return subspace;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -27,7 +27,7 @@
 #include "deform/groups.h"
 #include "deform/rotation.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct Subspace {
   explicit Subspace(Memory& memory)
@@ -72,7 +72,7 @@ struct Subspace {
   DenseFactor factor;        // factor of the part of L between free clusters
 };
 
-Subspace make_subspace(const Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
+Subspace make_subspace(const surface::Core& core, const Rest& rest, const ClusterWeights& weights, const Groups& groups,
                        Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -6,18 +6,18 @@
 #include "base/index.h"
 #include "deform/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 namespace {
 
-Index largest_component(const Core& core) {
+Index largest_component(const surface::Core& core) {
   Vector<double> area(at(core.mesh.component_count()), 0.0, core.memory.get());
   for (std::size_t v = 0; v < core.mesh.positions.size(); ++v) area[at(core.mesh.component[v])] += core.areas[v];
   return static_cast<Index>(std::max_element(area.begin(), area.end()) - area.begin());
 }
 
 // Takes the limb of a tip out of the trunk.
-void remove_limb(const Core& core, const Vector<double>& field, const Extremity& tip, Vector<Index>& limb,
-                 Vector<std::uint8_t>& trunk) {
+void remove_limb(const surface::Core& core, const Vector<double>& field, const field::Extremity& tip,
+                 Vector<Index>& limb, Vector<std::uint8_t>& trunk) {
   const double fall = 0.5 * tip.length * tip.length;  // extremities.h
   const double level = field[at(tip.vertex)] - limb_share * fall;
   limb.assign(1, tip.vertex);
@@ -35,20 +35,20 @@ void remove_limb(const Core& core, const Vector<double>& field, const Extremity&
 
 }  // namespace
 
-Trunk find_trunk(const Core& core, const Extremities& tips, Span<const double> height) {
-  const Mesh& mesh = core.mesh;
+Trunk find_trunk(const surface::Core& core, const field::Extremities& tips, Span<const double> height) {
+  const mesh::Mesh& mesh = core.mesh;
   const Index component = largest_component(core);
   Vector<std::uint8_t> trunk(mesh.positions.size(), 0, core.memory.get());
   for (std::size_t v = 0; v < trunk.size(); ++v) trunk[v] = mesh.component[v] == component;
   Vector<Index> limb(core.memory.get());
-  for (const Extremity& tip : tips.points) {
+  for (const field::Extremity& tip : tips.points) {
     if (tip.component == component) remove_limb(core, tips.field, tip, limb, trunk);
   }
   return trunk_of(core, trunk, height);
 }
 
-Trunk trunk_of(const Core& core, Span<const std::uint8_t> trunk, Span<const double> height) {
-  const Mesh& mesh = core.mesh;
+Trunk trunk_of(const surface::Core& core, Span<const std::uint8_t> trunk, Span<const double> height) {
+  const mesh::Mesh& mesh = core.mesh;
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < trunk.size(); ++v) {
     if (trunk[v]) lowest = std::min(lowest, height[v]);
@@ -68,4 +68,4 @@ Trunk trunk_of(const Core& core, Span<const std::uint8_t> trunk, Span<const doub
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

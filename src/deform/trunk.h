@@ -8,10 +8,10 @@
 #include <cstdint>
 
 #include "base/span.h"
-#include "engine/core.h"
 #include "field/extremities.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::deform {
 
 struct Trunk {
   bool found = false;
@@ -21,9 +21,9 @@ struct Trunk {
 
 // Finds the trunk of the component with the largest area. height: of every vertex. `found` is false where nothing is
 // left.
-Trunk find_trunk(const Core& core, const Extremities& tips, Span<const double> height);
+Trunk find_trunk(const surface::Core& core, const field::Extremities& tips, Span<const double> height);
 
 // The same of the vertices that are `inside`, 1 or 0 for every vertex.
-Trunk trunk_of(const Core& core, Span<const std::uint8_t> inside, Span<const double> height);
+Trunk trunk_of(const surface::Core& core, Span<const std::uint8_t> inside, Span<const double> height);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::deform

@@ -8,7 +8,7 @@
 #include "detail/constants.h"
 #include "detail/morph.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 namespace {
 
 struct Frame {
@@ -65,7 +65,7 @@ Vector<Frame> base_frames(const RegionSurface& surface, const RegionState& state
 void place_pins(const Region& region, const DiscBoundary& boundary, Span<const Index> vertices, const char* name,
                 DiscPins& pins) {
   const RegionState& state = *region.state();
-  const Mesh& mesh = region.core().mesh;
+  const mesh::Mesh& mesh = region.core().mesh;
   const auto place_of = [&](Index v) {
     const Index local = v < 0 ? -1 : state.shape->local[at(v)];
     return local < 0 ? -1 : boundary.place(local);
@@ -145,4 +145,4 @@ CarriedDetail carry_detail(const Region& source, const Region& target, const Car
   return carried;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

@@ -11,7 +11,7 @@
 #pragma once
 #include "detail/disc_map.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 struct CarryOptions {
   // Boundary vertices that match, in pairs; empty: the states' `first`.
@@ -31,4 +31,4 @@ struct CarriedDetail {
 
 CarriedDetail carry_detail(const Region& source, const Region& target, const CarryOptions& options, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

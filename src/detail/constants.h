@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 // --- region.cpp ---
 
@@ -50,4 +50,4 @@ constexpr double least_normal = 1e-12;
 // value from 0.58 to 1 works.
 constexpr double upright_cosine = 0.9;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

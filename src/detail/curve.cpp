@@ -6,7 +6,7 @@
 #include "base/index.h"
 #include "mesh/edge_paths.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 namespace {
 
 constexpr Index none = -1, on_curve = -2;
@@ -18,12 +18,12 @@ struct Pieces {
   Vector<double> area;  // by piece
 };
 
-Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
-  const Topology& topology = core.geometry->unlinked().topology();
+Pieces cut(const surface::Core& core, Span<const Index> curve, Memory& memory) {
+  const mesh::Topology& topology = core.geometry->unlinked().topology();
   Pieces pieces(memory);
   pieces.piece.assign(at(core.size()), none);
   for (const Index v : curve) pieces.piece[at(v)] = on_curve;
-  const Vector<double> areas = vertex_areas(core.mesh, memory);
+  const Vector<double> areas = mesh::vertex_areas(core.mesh, memory);
   const SharedVector<Index>& piece_of = core.geometry->unlinked().mesh.component;
   const Index component = piece_of[at(curve[0])];
   Vector<Index> queue(&memory);
@@ -51,9 +51,9 @@ Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
 
 }  // namespace
 
-ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory) {
+ClosedCurve closed_curve(const surface::Core& core, Span<const std::int32_t> points, Memory& memory) {
   ClosedCurve curve(memory);
-  EdgePaths paths(core.mesh, core.geometry->unlinked().topology(), memory);
+  mesh::EdgePaths paths(core.mesh, core.geometry->unlinked().topology(), memory);
   for (std::size_t i = 0; i < points.size(); ++i) {
     paths.append(points[i], points[(i + 1) % points.size()], curve.vertices);
     curve.point_of.resize(curve.vertices.size(), static_cast<Index>(i));
@@ -65,8 +65,8 @@ ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memo
   return curve;
 }
 
-bool along_borders(const Core& core, Span<const std::int32_t> curve, Span<const std::uint8_t> on) {
-  const Topology& topology = core.geometry->unlinked().topology();
+bool along_borders(const surface::Core& core, Span<const std::int32_t> curve, Span<const std::uint8_t> on) {
+  const mesh::Topology& topology = core.geometry->unlinked().topology();
   return std::all_of(curve.begin(), curve.end(), [&](Index v) {
     bool at_border = false;
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
@@ -79,7 +79,7 @@ bool along_borders(const Core& core, Span<const std::int32_t> curve, Span<const 
   });
 }
 
-void check_seed(const Core& core, std::int32_t seed, bool on, bool elsewhere) {
+void check_seed(const surface::Core& core, std::int32_t seed, bool on, bool elsewhere) {
   const Index given = core.mesh.given_of_inner[at(seed)];
   if (on) fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(given), "seed vertex %d lies on the curve", given);
   if (elsewhere)
@@ -87,8 +87,8 @@ void check_seed(const Core& core, std::int32_t seed, bool on, bool elsewhere) {
          "seed vertex %d is in another component than the curve", given);
 }
 
-Vector<std::int32_t> curve_side(const Core& core, Span<const std::int32_t> curve, CurveSide side, std::int32_t seed,
-                                Memory& memory) {
+Vector<std::int32_t> curve_side(const surface::Core& core, Span<const std::int32_t> curve, CurveSide side,
+                                std::int32_t seed, Memory& memory) {
   const Pieces pieces = cut(core, curve, memory);
   Vector<std::uint8_t> on(at(core.size()), 0, &memory);
   for (const Index v : curve) on[at(v)] = 1;
@@ -112,4 +112,4 @@ Vector<std::int32_t> curve_side(const Core& core, Span<const std::int32_t> curve
   return inside;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

@@ -6,9 +6,9 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/core.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 enum class CurveSide : std::int32_t { smaller = 0, larger = 1, seed = 2 };
 
@@ -20,19 +20,19 @@ struct ClosedCurve {
 };
 
 // points: inner vertices of one component.
-ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory);
+ClosedCurve closed_curve(const surface::Core& core, Span<const std::int32_t> points, Memory& memory);
 
 // Tells whether the curve consists of whole borders of the surface. on: by inner vertex, whether it is on the curve.
-bool along_borders(const Core& core, Span<const std::int32_t> curve, Span<const std::uint8_t> on);
+bool along_borders(const surface::Core& core, Span<const std::int32_t> curve, Span<const std::uint8_t> on);
 
 // Throws HF_ERROR_INVALID_ARGUMENT if the seed is on the curve or elsewhere: in another component. The index is the
 // seed as the caller numbered it.
-void check_seed(const Core& core, std::int32_t seed, bool on, bool elsewhere);
+void check_seed(const surface::Core& core, std::int32_t seed, bool on, bool elsewhere);
 
 // Returns the vertices of one side of the curve in ascending order. `seed` is an inner vertex of the wanted side; only
 // CurveSide::seed uses it. Throws HF_ERROR_INVALID_ARGUMENT when the curve does not separate the surface. It throws the
 // same when the seed lies on the curve or in another component; the index is then the seed as the caller numbered it.
-Vector<std::int32_t> curve_side(const Core& core, Span<const std::int32_t> curve, CurveSide side, std::int32_t seed,
-                                Memory& memory);
+Vector<std::int32_t> curve_side(const surface::Core& core, Span<const std::int32_t> curve, CurveSide side,
+                                std::int32_t seed, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "detail/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 namespace {
 
 constexpr Index nowhere = -1;
@@ -16,7 +16,7 @@ constexpr Index nowhere = -1;
 // of the vertex are not one fan.
 class Fan {
  public:
-  Fan(const Core& core, Memory& memory)
+  Fan(const surface::Core& core, Memory& memory)
       : mesh_(core.geometry->unlinked().mesh), topology_(core.geometry->unlinked().topology()), order_(&memory) {}
 
   bool make(Index vertex) {
@@ -79,8 +79,8 @@ class Fan {
       if (topology_.triangle(i) != triangle) return topology_.triangle(i);
     return nowhere;
   }
-  const Mesh& mesh_;
-  const Topology& topology_;
+  const mesh::Mesh& mesh_;
+  const mesh::Topology& topology_;
   Index vertex_ = nowhere;
   Vector<Index> order_;
   bool closed_ = false;
@@ -92,7 +92,7 @@ bool before(Index a, Index b, Index c, Index size) noexcept { return (b - a + si
 // The strands of a curve that has no ways out and back.
 class Strands {
  public:
-  Strands(const Core& core, const ClosedCurve& curve, Memory& memory)
+  Strands(const surface::Core& core, const ClosedCurve& curve, Memory& memory)
       : core_(core), fan_(core, memory), vertex_(&memory), point_(&memory) {
     for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
       if (vertex_.size() >= 2 && vertex_[vertex_.size() - 2] == curve.vertices[i]) {
@@ -201,7 +201,7 @@ class Strands {
     return before(fan_.place(vertex(from)), fan_.place(vertex(a)), fan_.place(vertex(b)), fan_.size());
   }
 
-  const Core& core_;
+  const surface::Core& core_;
   Fan fan_;
   Vector<Index> vertex_, point_;
   Index size_ = 0;
@@ -209,8 +209,8 @@ class Strands {
 
 }  // namespace
 
-void require_no_crossing(const Core& core, const ClosedCurve& curve, Memory& memory) {
+void require_no_crossing(const surface::Core& core, const ClosedCurve& curve, Memory& memory) {
   Strands(core, curve, memory).check(memory);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

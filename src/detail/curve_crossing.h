@@ -7,11 +7,11 @@
 #pragma once
 #include "detail/curve.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 // Ways out and straight back along the same edges do not count. Where the triangles around a shared vertex are not one
 // fan, sides mean nothing, and the curve is taken to touch. Throws HF_ERROR_INVALID_ARGUMENT when the curve crosses
 // itself; index: the point before the crossing.
-void require_no_crossing(const Core& core, const ClosedCurve& curve, Memory& memory);
+void require_no_crossing(const surface::Core& core, const ClosedCurve& curve, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

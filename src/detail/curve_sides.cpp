@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "detail/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 namespace {
 
 constexpr Index unseen = -0x7fffffff;
@@ -23,7 +23,8 @@ Index third(const Index* corners, Index a, Index b) noexcept {
 
 class CurveSides {
  public:
-  CurveSides(const Core& core, Span<const CurvePoint> points, const SurfaceCurve& curve, Memory& memory)
+  CurveSides(const surface::Core& core, Span<const mesh::CurvePoint> points, const mesh::SurfaceCurve& curve,
+             Memory& memory)
       : core_(core),
         mesh_(core.geometry->unlinked().mesh),
         topology_(core.geometry->unlinked().topology()),
@@ -35,8 +36,8 @@ class CurveSides {
         sum_(at(topology_.edge_count()), 0, &memory),
         crossing_(&memory),
         winding_(at(core.size()), unseen, &memory) {
-    for (const PathPoint& place : curve.place) {
-      if (place.a == Mesh::none || place.a != place.b) continue;
+    for (const mesh::PathPoint& place : curve.place) {
+      if (place.a == mesh::Mesh::none || place.a != place.b) continue;
       on_[at(place.a)] = 1;
       vertices_.push_back(place.a);
     }
@@ -48,7 +49,7 @@ class CurveSides {
     wind();
     check_seed_of(side, seed);
     double area[2] = {0, 0};
-    const Vector<double> areas = vertex_areas(core_.mesh, memory_);
+    const Vector<double> areas = mesh::vertex_areas(core_.mesh, memory_);
     bool any[2] = {false, false};
     for (Index v = 0; v < core_.size(); ++v) {
       if (!off(v)) continue;
@@ -101,9 +102,9 @@ class CurveSides {
 
   // Counts the edges that the curve crosses at a place: its edge, or the edges on one side of its vertex.
   void pass(std::size_t i) {
-    const PathPoint& place = curve_.place[i];
+    const mesh::PathPoint& place = curve_.place[i];
     const Index from = curve_.triangle[i == 0 ? curve_.triangle.size() - 1 : i - 1], to = curve_.triangle[i];
-    if (from == to || place.a == Mesh::none) return;
+    if (from == to || place.a == mesh::Mesh::none) return;
     if (place.a != place.b) return cross(topology_.edge_between(place.a, place.b), from, i);
     const Index* v = mesh_.triangle(from);
     for (int k = 0; k < 3; ++k) {
@@ -119,7 +120,7 @@ class CurveSides {
   // Returns the triangle beyond an edge, or Mesh::none where it does not have two.
   Index beyond(Index e, Index triangle) const noexcept {
     const Index begin = topology_.edge_triangle_start[at(e)];
-    if (topology_.edge_triangle_start[at(e) + 1] - begin != 2) return Mesh::none;
+    if (topology_.edge_triangle_start[at(e) + 1] - begin != 2) return mesh::Mesh::none;
     const Index first = topology_.triangle(begin);
     return first == triangle ? topology_.triangle(begin + 1) : first;
   }
@@ -130,7 +131,7 @@ class CurveSides {
     const std::size_t before = crossing_.size();
     for (Index t = from; t != to;) {
       const Index e = topology_.edge_between(v, w), next = beyond(e, t);
-      if (next == Mesh::none || next == from) {
+      if (next == mesh::Mesh::none || next == from) {
         for (; crossing_.size() > before; crossing_.pop_back())
           sum_[at(crossing_.back().edge)] -= crossing_.back().sign;
         return false;
@@ -153,7 +154,7 @@ class CurveSides {
   // Finds the winding number of every vertex of the component.
   void wind() {
     Poller poller;
-    Index start = Mesh::none;
+    Index start = mesh::Mesh::none;
     for (int k = 0; k < 3; ++k) start = points_[0].weight[k] > 0 ? points_[0].corner[k] : start;
     Vector<Index> queue(1, start, &memory_);
     winding_[at(start)] = 0;
@@ -204,12 +205,12 @@ class CurveSides {
   }
   // A place in the plane of a triangle, by the weights of its second and third corner.
   Plane in_plane(Index triangle, std::size_t place) const {
-    const PathPoint& p = curve_.place[place];
+    const mesh::PathPoint& p = curve_.place[place];
     const Index* v = mesh_.triangle(triangle);
     double w[3] = {0, 0, 0};
     for (int k = 0; k < 3; ++k) {
-      if (p.a == Mesh::none) {
-        const CurvePoint& point = points_[at(curve_.point_of[place])];
+      if (p.a == mesh::Mesh::none) {
+        const mesh::CurvePoint& point = points_[at(curve_.point_of[place])];
         for (int c = 0; c < 3; ++c) w[k] += point.corner[c] == v[k] ? point.weight[c] : 0;
       } else {
         w[k] = p.a == v[k] ? 1 - p.t : p.b == v[k] ? p.t : 0;
@@ -244,10 +245,10 @@ class CurveSides {
   // Above 0 if a place in the triangle of a line lies to the left of it.
   double side_of(std::size_t line, std::size_t place) const {
     const Index t = curve_.triangle[line];
-    const PathPoint &a = curve_.place[line], &b = curve_.place[(line + 1) % curve_.place.size()],
-                    &p = curve_.place[place];
+    const mesh::PathPoint &a = curve_.place[line], &b = curve_.place[(line + 1) % curve_.place.size()],
+                          &p = curve_.place[place];
     const Plane from = in_plane(t, line), to = in_plane(t, (line + 1) % curve_.place.size());
-    const bool along = a.a != Mesh::none && a.a == a.b && b.a == b.b && p.a != p.b &&
+    const bool along = a.a != mesh::Mesh::none && a.a == a.b && b.a == b.b && p.a != p.b &&
                        ((p.a == a.a && p.b == b.a) || (p.a == b.a && p.b == a.a));
     if (!along) return left(from, to, in_plane(t, place));
     // A line along an edge runs beside it in its triangle: places of the edge lie on the other side.
@@ -261,7 +262,7 @@ class CurveSides {
     const Index size = static_cast<Index>(curve_.place.size());
     Vector<Index> visits(&memory_);
     for (Index i = 0; i < size; ++i) {
-      if (curve_.place[at(i)].a != Mesh::none) visits.push_back(i);
+      if (curve_.place[at(i)].a != mesh::Mesh::none) visits.push_back(i);
     }
     // The edge of a place, and the share of it from its lower vertex.
     const auto low = [&](Index i) { return std::min(curve_.place[at(i)].a, curve_.place[at(i)].b); };
@@ -276,7 +277,7 @@ class CurveSides {
     for (std::size_t i = 0; i < visits.size(); ++i) {
       for (std::size_t j = i + 1; j < visits.size() && j - i <= at(most_visits); ++j) {
         const Index a = std::min(visits[i], visits[j]), b = std::max(visits[i], visits[j]);
-        if (low(a) != low(b) || high(a) != high(b) || std::fabs(share(a) - share(b)) > place_tolerance) break;
+        if (low(a) != low(b) || high(a) != high(b) || std::fabs(share(a) - share(b)) > mesh::place_tolerance) break;
         if (b < first && (low(a) == high(a) ? visits_cross(a, b) : edge_visits_cross(a, b))) first = b;
       }
     }
@@ -305,10 +306,10 @@ class CurveSides {
     const Vector<Index> fan = fan_of(v, curve_.triangle[at(i)]);
     // The direction of a line from the vertex, counted in neighbours on the way round it.
     const auto turn = [&](std::size_t line, std::size_t end) {
-      const PathPoint& place = curve_.place[end];
+      const mesh::PathPoint& place = curve_.place[end];
       Index p = place.a, q = place.b;
       double t = place.t;
-      if (p == Mesh::none) {
+      if (p == mesh::Mesh::none) {
         const Index* corners = mesh_.triangle(curve_.triangle[line]);
         p = corners[0] == v ? corners[1] : corners[0];
         q = third(corners, v, p);
@@ -331,14 +332,14 @@ class CurveSides {
     const Index* corners = mesh_.triangle(triangle);
     const Index first = corners[0] == v ? corners[1] : corners[0];
     fan.push_back(first);
-    for (Index t = triangle, w = first; t != Mesh::none;) {
+    for (Index t = triangle, w = first; t != mesh::Mesh::none;) {
       w = third(mesh_.triangle(t), v, w);
       if (w == first) return fan;
       fan.push_back(w);
       t = beyond(topology_.edge_between(v, w), t);
     }
     Index t = beyond(topology_.edge_between(v, first), triangle);  // the other way round, up to a border
-    for (Index w = first; t != Mesh::none; t = beyond(topology_.edge_between(v, w), t)) {
+    for (Index w = first; t != mesh::Mesh::none; t = beyond(topology_.edge_between(v, w), t)) {
       back.push_back(w = third(mesh_.triangle(t), v, w));
     }
     std::reverse(back.begin(), back.end());
@@ -374,7 +375,7 @@ class CurveSides {
       return count;
     };
     for (Index v = 0; v < core_.size(); ++v) {
-      Index beyond = Mesh::none, other = Mesh::none;
+      Index beyond = mesh::Mesh::none, other = mesh::Mesh::none;
       if (!in[at(v)] && winding_[at(v)] != unseen && outside(v, beyond) == 1 && outside(beyond, other) > 1)
         joined.push_back(v);
     }
@@ -388,11 +389,11 @@ class CurveSides {
   struct Crossing {
     Index edge, sign, place;
   };
-  const Core& core_;
-  const Mesh& mesh_;
-  const Topology& topology_;
-  Span<const CurvePoint> points_;
-  const SurfaceCurve& curve_;
+  const surface::Core& core_;
+  const mesh::Mesh& mesh_;
+  const mesh::Topology& topology_;
+  Span<const mesh::CurvePoint> points_;
+  const mesh::SurfaceCurve& curve_;
   Memory& memory_;
   Vector<std::uint8_t> on_;  // by vertex
   Vector<Index> vertices_;   // that the curve passes, in order
@@ -404,9 +405,10 @@ class CurveSides {
 
 }  // namespace
 
-Vector<std::int32_t> surface_curve_side(const Core& core, Span<const CurvePoint> points, const SurfaceCurve& curve,
-                                        CurveSide side, std::int32_t seed, Memory& memory) {
+Vector<std::int32_t> surface_curve_side(const surface::Core& core, Span<const mesh::CurvePoint> points,
+                                        const mesh::SurfaceCurve& curve, CurveSide side, std::int32_t seed,
+                                        Memory& memory) {
   return CurveSides(core, points, curve, memory).side(side, seed);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

@@ -10,7 +10,7 @@
 #include "detail/curve.h"
 #include "mesh/surface_curve.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 // Returns the vertices of one side, in ascending order. `seed` is an inner vertex of the wanted side; only
 // CurveSide::seed uses it. A single vertex that the curve leaves between itself and the region, with one edge to the
@@ -18,7 +18,8 @@ namespace hf_inner {
 // HF_ERROR_INVALID_ARGUMENT in five cases. The curve crosses itself (index: the point before the crossing). The curve
 // passes a vertex whose triangles are not one fan (index: that point). The curve does not separate the surface. The
 // curve goes round no vertex. A seed is on the curve or in another component (index: the seed in the caller's numbers).
-Vector<std::int32_t> surface_curve_side(const Core& core, Span<const CurvePoint> points, const SurfaceCurve& curve,
-                                        CurveSide side, std::int32_t seed, Memory& memory);
+Vector<std::int32_t> surface_curve_side(const surface::Core& core, Span<const mesh::CurvePoint> points,
+                                        const mesh::SurfaceCurve& curve, CurveSide side, std::int32_t seed,
+                                        Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

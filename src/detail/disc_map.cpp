@@ -10,7 +10,7 @@
 #include "detail/constants.h"
 #include "factor/factor.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 namespace {
 
 struct HalfEdge {
@@ -25,7 +25,7 @@ struct HalfEdge {
 }
 
 // Returns the cotangent weights of these edges, each raised to a small positive number (disc_least_weight).
-Vector<double> positive_weights(const Core& core, Span<const Index> edges, Memory& memory) {
+Vector<double> positive_weights(const surface::Core& core, Span<const Index> edges, Memory& memory) {
   Vector<double> weights(&memory), magnitude(&memory);
   for (const Index e : edges) {
     weights.push_back(core.geometry->unlinked().weights()[at(e)]);
@@ -120,7 +120,7 @@ DiscBoundary::DiscBoundary(const RegionSurface& surface, const RegionState& stat
 
 Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& state, const DiscBoundary& boundary,
                               const DiscPins& pins, Memory& memory) {
-  const Core& core = *surface.core;
+  const surface::Core& core = *surface.core;
   const RegionShape& shape = *state.shape;
   Vector<DiscPoint> points(at(shape.local_count()), &memory);
   constexpr double two_pi = 6.283185307179586476925;
@@ -151,7 +151,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
       unknown.push_back(l);
     }
   if (unknown.empty()) return points;
-  const Topology& topology = core.geometry->unlinked().topology();
+  const mesh::Topology& topology = core.geometry->unlinked().topology();
   for (const Index l : unknown) {
     const Index v = shape.vertex(l);
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i)
@@ -194,10 +194,11 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
     const Vec3 p = core.mesh.positions[at(v)];
     for (const double x : {p.x, p.y, p.z}) coordinates.push_back(static_cast<float>(x));
   }
-  FactorOptions options;
+  factor::FactorOptions options;
   options.ordering = core.ordering;
   options.flop_limit = core.flop_limit;
-  const std::shared_ptr<const Factor> factor = Factor::make(matrix, coordinates, options, memory, *core.jobs);
+  const std::shared_ptr<const factor::Factor> factor =
+      factor::Factor::make(matrix, coordinates, options, memory, *core.jobs);
   Vector<double> z(right.size(), &memory);
   factor->solve(right.data(), right.data(), 2, z.data(), *core.jobs);
   for (std::size_t c = 0; c < unknown.size(); ++c) points[at(unknown[c])] = {right[2 * c], right[2 * c + 1]};
@@ -290,4 +291,4 @@ std::int32_t DiscSearch::find(DiscPoint point, double weights[3]) const {
   return best;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

@@ -8,7 +8,7 @@
 #pragma once
 #include "detail/region.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 // The boundary loop of a region that is a disc. Vertices are numbered within the region (RegionShape::local).
 struct DiscBoundary {
@@ -58,4 +58,4 @@ class DiscSearch {
   Vector<Box> boxes_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

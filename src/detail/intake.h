@@ -4,10 +4,10 @@
 #include "detail/region.h"
 #include "hf/region.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 struct RegionOptions {
-  FieldKind field_kind;
+  mesh::FieldKind field_kind;
   ConstRows positions;  // null: the positions of the surface
 };
 // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC or HF_ERROR_TOO_SMALL (stride).
@@ -21,13 +21,13 @@ struct RegionEditInput {
   explicit RegionEditInput(Memory* memory) : points(memory), remove(memory), add(memory) {}
   RegionEditInput(const RegionEditInput&) = delete;
   RegionEditInput& operator=(const RegionEditInput&) = delete;
-  Vector<CurvePoint> points;
+  Vector<mesh::CurvePoint> points;
   Vector<std::int32_t> remove, add;
   RegionEdit edit;
 };
 // Read the curve, and the other parts of the edit. Throw as hf_region_edit says.
-void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& input);
-void read_region_lists(const Core& core, const hf_region_edit_desc& desc, RegionEditInput& input);
+void read_curve(const surface::Core& core, const hf_curve_desc& curve, RegionEditInput& input);
+void read_region_lists(const surface::Core& core, const hf_region_edit_desc& desc, RegionEditInput& input);
 
 // Which boundary vertices match, and the scale.
 struct CarryInput {
@@ -40,4 +40,4 @@ struct CarryInput {
 // hf_detail_create says.
 CarryInput read_carry(const Region& source, const Region& target, const hf_detail_desc& desc);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

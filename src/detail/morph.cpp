@@ -2,7 +2,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 Vector<Vec3> morphed_positions(const RegionSurface& surface, const RegionState& state, double weight, Memory& memory) {
   const RegionShape& shape = *state.shape;
@@ -42,4 +42,4 @@ Vec3 unit_normal(Vec3 sum) noexcept {
   return length > 0 ? (1 / length) * sum : Vec3{0, 0, 1};
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

@@ -5,7 +5,7 @@
 #pragma once
 #include "detail/region.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 // Returns p + weight (base - p). The result has exactly the bits of p at weight 0, and the bits of base at weight 1.
 inline Vec3 morphed(Vec3 p, Vec3 base, double weight) noexcept {
@@ -28,4 +28,4 @@ Vector<Vec3> local_normal_sums(const RegionState& state, Span<const Vec3> positi
 // Returns the unit vector along a sum of cross products, or (0, 0, 1) if the sum is zero.
 Vec3 unit_normal(Vec3 sum) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

@@ -12,7 +12,7 @@
 #include "detail/curve_sides.h"
 #include "detail/morph.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 namespace {
 
 // A closed curve and the vertices on one side of it.
@@ -23,30 +23,30 @@ struct Enclosed {
 };
 
 Enclosed enclosed(const RegionSurface& surface, const RegionEdit& edit, Memory& memory) {
-  const Core& core = *surface.core;
+  const surface::Core& core = *surface.core;
   Enclosed result(memory);
   if (edit.kind == CurveKind::edges) {
     Vector<Index> points(&memory);
-    for (const CurvePoint& point : edit.curve) points.push_back(nearest_corner(point));
+    for (const mesh::CurvePoint& point : edit.curve) points.push_back(mesh::nearest_corner(point));
     const ClosedCurve curve = closed_curve(core, points, memory);
     require_no_crossing(core, curve, memory);
     result.inside = curve_side(core, curve.vertices, edit.side, edit.seed, memory);
     for (const Index v : curve.vertices) result.line.push_back(surface.position(v));
     return result;
   }
-  const SurfaceCurve curve =
-      surface_curve(core.geometry->unlinked().mesh, core.geometry->unlinked().topology(), edit.curve, {}, memory);
+  const mesh::SurfaceCurve curve =
+      mesh::surface_curve(core.geometry->unlinked().mesh, core.geometry->unlinked().topology(), edit.curve, {}, memory);
   result.inside = surface_curve_side(core, edit.curve, curve, edit.side, edit.seed, memory);
   for (std::size_t i = 0; i < curve.place.size(); ++i) {
-    const PathPoint& place = curve.place[i];
-    result.line.push_back(place.a == Mesh::none
+    const mesh::PathPoint& place = curve.place[i];
+    result.line.push_back(place.a == mesh::Mesh::none
                               ? surface.position(edit.curve[at(curve.point_of[i])])
                               : (1 - place.t) * surface.position(place.a) + place.t * surface.position(place.b));
   }
   return result;
 }
 
-Vector<Index> edited(const Core& core, Vector<Index>&& inside, const RegionEdit& edit, Memory& memory) {
+Vector<Index> edited(const surface::Core& core, Vector<Index>&& inside, const RegionEdit& edit, Memory& memory) {
   if (edit.rings != 0) inside = grown(core, inside, edit.rings, memory);
   if (edit.remove.empty() && edit.add.empty()) return std::move(inside);
   Vector<std::uint8_t> in(at(core.size()), 0, &memory);
@@ -67,10 +67,10 @@ Index nearest_of(const RegionSurface& surface, Span<const Index> vertices, Vec3 
 }
 
 // Clones the engine (solver) of `from`, and changes the clone's sites to the sites of `to`.
-void place_sites(const RegionState& from, RegionState& to, const Core& core, Memory& memory) {
-  const std::shared_ptr<SiteSolver> engine = from.engine->clone();
+void place_sites(const RegionState& from, RegionState& to, const surface::Core& core, Memory& memory) {
+  const std::shared_ptr<solve::SiteSolver> engine = from.engine->clone();
   Vector<Index> leaving(&memory), coming(&memory), slots(&memory);
-  Vector<Site> places(&memory);
+  Vector<solve::Site> places(&memory);
   Vector<std::uint8_t> used(at(engine->slot_count()), 0, &memory);
   NumberPool numbers;
   const Vector<Index>&old = from.shape->sites, &now = to.shape->sites;
@@ -90,10 +90,10 @@ void place_sites(const RegionState& from, RegionState& to, const Core& core, Mem
     const auto next = numbers.take([&](std::uint32_t slot) { return slot < used.size() && used[slot]; });
     to.slot[at(c)] = static_cast<Index>(next);
     slots.push_back(to.slot[at(c)]);
-    places.push_back(Site::at_vertex(core.mesh, now[at(c)]));
+    places.push_back(solve::Site::at_vertex(core.mesh, now[at(c)]));
   }
   if (!leaving.empty() || !coming.empty()) {
-    SiteEdit edit;
+    solve::SiteEdit edit;
     edit.remove = leaving;
     edit.add = slots;
     edit.sites = places;
@@ -106,7 +106,7 @@ void place_sites(const RegionState& from, RegionState& to, const Core& core, Mem
 }
 
 void solve_base(const RegionSurface& surface, RegionState& state, Memory& memory) {
-  const Core& core = *surface.core;
+  const surface::Core& core = *surface.core;
   const RegionShape& shape = *state.shape;
   Vector<double> values(at(state.engine->slot_count()) * 3, 0.0, &memory);
   for (std::size_t i = 0; i < shape.sites.size(); ++i) {
@@ -121,7 +121,7 @@ void solve_base(const RegionSurface& surface, RegionState& state, Memory& memory
   // Iterative refinement corrects a bi-harmonic field, and it needs the whole factor.
   state.whole_sweep = core.refinements > 0 || whole_sweep_share * shape.inside.size() > at(core.size());
   if (state.whole_sweep) {
-    Workspace field(core.workspaces, at(core.size()) * 3);
+    surface::Workspace field(core.workspaces, at(core.size()) * 3);
     state.engine->solve(values.data(), 3, field.data(), nullptr);
     for (std::size_t i = 0; i < shape.inside.size(); ++i) take(i, field.data() + at(shape.inside[i]) * 3);
   } else {
@@ -133,8 +133,8 @@ void solve_base(const RegionSurface& surface, RegionState& state, Memory& memory
 
 }  // namespace
 
-Vector<Vec3> positions_of(const Core& core, const ConstRows& given) {
-  const Mesh& mesh = core.mesh;
+Vector<Vec3> positions_of(const surface::Core& core, const ConstRows& given) {
+  const mesh::Mesh& mesh = core.mesh;
   Vector<Vec3> positions(mesh.report.vertex_count, core.memory.get());
   for (std::size_t v = 0; given && v < positions.size(); ++v) {
     const Vec3 p{given.get(v, 0), given.get(v, 1), given.get(v, 2)};
@@ -145,13 +145,13 @@ Vector<Vec3> positions_of(const Core& core, const ConstRows& given) {
   if (given) return positions;
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const Index inner = mesh.inner_of_given[v];
-    if (inner != Mesh::none) positions[v] = mesh.to_given(mesh.positions[at(inner)]);
+    if (inner != mesh::Mesh::none) positions[v] = mesh.to_given(mesh.positions[at(inner)]);
   }
-  for (const Mesh::Isolated& entry : mesh.isolated) positions[at(entry.given)] = entry.position;
+  for (const mesh::Mesh::Isolated& entry : mesh.isolated) positions[at(entry.given)] = entry.position;
   return positions;
 }
 
-Vec3 RegionSurface::position(const CurvePoint& point) const noexcept {
+Vec3 RegionSurface::position(const mesh::CurvePoint& point) const noexcept {
   Vec3 sum;
   for (int k = 0; k < 3; ++k) {
     if (point.weight[k] > 0) sum = sum + point.weight[k] * position(point.corner[k]);
@@ -159,7 +159,7 @@ Vec3 RegionSurface::position(const CurvePoint& point) const noexcept {
   return sum;
 }
 
-RegionSurface::RegionSurface(std::shared_ptr<const Core> shared, Vector<Vec3>&& given)
+RegionSurface::RegionSurface(std::shared_ptr<const surface::Core> shared, Vector<Vec3>&& given)
     : core(std::move(shared)),
       positions(std::move(given), core->memory.get()),
       normal_sum(at(core->size()), core->memory.get()) {
@@ -189,7 +189,7 @@ RegionState::RegionState(const RegionSurface& surface, std::shared_ptr<const Reg
 Region::Region(std::shared_ptr<const RegionSurface> surface) : surface_(std::move(surface)) {
   const auto shape = make_shared_in<RegionShape>(memory(), core(), Span<const Index>(), memory());
   const auto state = make_shared_in<RegionState>(memory(), *surface_, shape, memory());
-  state->engine = SiteSolver::make(surface_->core);
+  state->engine = solve::SiteSolver::make(surface_->core);
   state_ = state;
 }
 
@@ -231,4 +231,4 @@ void Region::edit(const RegionEdit& edit) {
   state_ = next;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

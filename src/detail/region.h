@@ -19,35 +19,35 @@
 #include "base/progress.h"
 #include "detail/curve.h"
 #include "detail/region_shape.h"
-#include "engine/site_solver.h"
 #include "mesh/surface_curve.h"
+#include "solve/site_solver.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 // The surface on which regions lie. Positions have one row per vertex of the caller's mesh, in the caller's unit.
 struct RegionSurface {
-  RegionSurface(std::shared_ptr<const Core> shared, Vector<Vec3>&& given);
+  RegionSurface(std::shared_ptr<const surface::Core> shared, Vector<Vec3>&& given);
   Vec3 position(std::int32_t inner) const noexcept {
     return positions[static_cast<std::size_t>(core->mesh.given_of_inner[static_cast<std::size_t>(inner)])];
   }
-  Vec3 position(const CurvePoint& point) const noexcept;
+  Vec3 position(const mesh::CurvePoint& point) const noexcept;
   // Returns the position centred and scaled. Lengths, areas and normals use it, because squares in the caller's unit
   // may overflow.
   Vec3 scaled_position(std::int32_t inner) const noexcept { return core->mesh.to_inner(position(inner)); }
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   Vector<Vec3> positions;   // by vertex of the caller's mesh
   Vector<Vec3> normal_sum;  // by inner vertex: sum of the cross products of its triangles, scaled
 };
 
 // Returns one position per vertex of the caller's mesh: `given`, or the mesh's own positions if `given` is empty.
 // Throws HF_ERROR_NON_FINITE; index: the vertex of the caller's mesh.
-Vector<Vec3> positions_of(const Core& core, const ConstRows& given);
+Vector<Vec3> positions_of(const surface::Core& core, const ConstRows& given);
 
 // How the points of a curve are joined.
 enum class CurveKind : std::int32_t { straight = 0, edges = 1 };
 
 struct RegionEdit {
-  Span<const CurvePoint> curve;  // the curve's points; empty: no curve
+  Span<const mesh::CurvePoint> curve;  // the curve's points; empty: no curve
   CurveKind kind = CurveKind::straight;
   CurveSide side = CurveSide::smaller;
   std::int32_t seed = -1;
@@ -58,7 +58,7 @@ struct RegionEdit {
 struct RegionState {
   RegionState(const RegionSurface& surface, std::shared_ptr<const RegionShape> shape, Memory& memory);
   std::shared_ptr<const RegionShape> shape;
-  std::shared_ptr<const SiteSolver> engine;
+  std::shared_ptr<const solve::SiteSolver> engine;
   Vector<std::int32_t> slot;  // number of each site (constrained vertex around the region) in the engine.
   Vector<Vec3> base;          // positions of the smooth base surface by vertex inside, in the caller's unit.
   // By vertex around the region: scaled sum of the cross products of its triangles outside the region.
@@ -80,7 +80,7 @@ class Region {
 
   const std::shared_ptr<const RegionSurface>& surface() const noexcept { return surface_; }
   const std::shared_ptr<const RegionState>& state() const noexcept { return state_; }
-  const Core& core() const noexcept { return *surface_->core; }
+  const surface::Core& core() const noexcept { return *surface_->core; }
 
  private:
   Memory& memory() const noexcept { return *surface_->core->memory; }
@@ -89,4 +89,4 @@ class Region {
   std::shared_ptr<const RegionState> state_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

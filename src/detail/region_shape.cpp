@@ -5,12 +5,12 @@
 #include "base/error.h"
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 namespace {
 
 // Calls use(u) for every neighbour u of the vertex v.
 template <class Use>
-void for_neighbours(const Topology& topology, Index v, Use&& use) {
+void for_neighbours(const mesh::Topology& topology, Index v, Use&& use) {
   for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i)
     use(topology.neighbour[at(i)]);
 }
@@ -22,7 +22,7 @@ void for_entries(const SymmetricMatrix& k, Index v, Use&& use) {
     if (k.value[at(i)] != 0) use(k.row[at(i)]);
 }
 
-void check_held(const Core& core, Span<const Index> inside, Memory& memory) {
+void check_held(const surface::Core& core, Span<const Index> inside, Memory& memory) {
   Vector<Index> free(core.mesh.report.component_count, 0, &memory);
   for (const Index c : core.mesh.component) ++free[at(c)];
   for (const Index v : inside) {
@@ -35,7 +35,7 @@ void check_held(const Core& core, Span<const Index> inside, Memory& memory) {
 
 }  // namespace
 
-RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memory& memory)
+RegionShape::RegionShape(const surface::Core& core, Span<const std::int32_t> given, Memory& memory)
     : inside(given.begin(), given.end(), &memory),
       rim(&memory),
       sites(&memory),
@@ -51,7 +51,7 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
       list.push_back(v);
     }
   };
-  const Topology& surface = core.geometry->unlinked().topology();
+  const mesh::Topology& surface = core.geometry->unlinked().topology();
   for (const Index v : inside) for_neighbours(surface, v, [&](Index u) { take(u, rim); });
   sites.assign(rim.begin(), rim.end());
   // Linked vertices outside hold the base, but they are no rim: they lie on other pieces.
@@ -85,8 +85,9 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
   }
 }
 
-Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, std::int32_t rings, Memory& memory) {
-  const Topology& surface = core.geometry->unlinked().topology();
+Vector<std::int32_t> grown(const surface::Core& core, Span<const std::int32_t> inside, std::int32_t rings,
+                           Memory& memory) {
+  const mesh::Topology& surface = core.geometry->unlinked().topology();
   Vector<std::uint8_t> in(at(core.size()), 0, &memory);
   for (const Index v : inside) in[at(v)] = 1;
   Vector<Index> front(&memory), next(&memory);
@@ -128,4 +129,4 @@ Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, st
   return result;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

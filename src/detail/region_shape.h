@@ -11,14 +11,14 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/core.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::detail {
 
 struct RegionShape {
   // Describes the region with these vertices. inside: inner vertices in ascending order, each once. Throws
   // HF_ERROR_INVALID_ARGUMENT when a whole component lies inside; index: one of its vertices in the caller's mesh.
-  RegionShape(const Core& core, Span<const std::int32_t> inside, Memory& memory);
+  RegionShape(const surface::Core& core, Span<const std::int32_t> inside, Memory& memory);
 
   std::int32_t local_count() const noexcept { return static_cast<std::int32_t>(inside.size() + rim.size()); }
   // Returns the inner vertex that has this local number.
@@ -34,6 +34,7 @@ struct RegionShape {
 };
 
 // Returns the region with `rings` more rings of vertices around it. A negative number takes rings away.
-Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, std::int32_t rings, Memory& memory);
+Vector<std::int32_t> grown(const surface::Core& core, Span<const std::int32_t> inside, std::int32_t rings,
+                           Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::detail

@@ -2,7 +2,7 @@
 
 #include "base/compiler.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // The hash runs this many independent chains of multiplications; with one, each multiplication would wait for the last.
@@ -33,4 +33,4 @@ std::uint64_t hash_piece(const std::uint8_t* bytes, std::uint64_t length) noexce
   return state;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

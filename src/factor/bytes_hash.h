@@ -13,7 +13,7 @@
 #include "base/jobs.h"
 #include "base/memory.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // The checksum is computed in pieces of this many bytes, one thread's job each. A change of this number would change
 // the saved format.
@@ -51,4 +51,4 @@ std::uint64_t hash_array(const T* values, std::size_t count, Memory& memory, Job
                     [](std::uint64_t, std::uint64_t) {});
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

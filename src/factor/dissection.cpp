@@ -10,7 +10,7 @@
 #include "factor/minimum_degree.h"
 #include "factor/multilevel.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // Parts of the graph up to this many vertices (leaves) are ordered by minimum degree. At half the value: the factor's
@@ -314,4 +314,4 @@ void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates,
   Dissection(matrix, coordinates, memory, jobs, order.data()).run();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

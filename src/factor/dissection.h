@@ -17,9 +17,9 @@
 #include "base/progress.h"
 #include "factor/matrix.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 void order_by_dissection(const SymmetricMatrix& matrix, Coordinates coordinates, Memory& memory, JobRunner& jobs,
                          Buffer<std::int32_t>& order);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 constexpr Index tile = PathGroup::capacity;
@@ -623,4 +623,4 @@ std::shared_ptr<const Factor> edit_factor(std::shared_ptr<const Factor> base, co
   return made;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -33,7 +33,7 @@
 #pragma once
 #include "factor/factor.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // The change D of a matrix on a few unknowns, as sparse entries of both triangles.
 struct MatrixChange {
@@ -56,4 +56,4 @@ struct MatrixChange {
 std::shared_ptr<const Factor> edit_factor(std::shared_ptr<const Factor> base, const MatrixChange& change,
                                           Memory& memory, JobRunner& jobs);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

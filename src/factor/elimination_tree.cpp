@@ -5,7 +5,7 @@
 #include "base/compiler.h"
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // A walk over permuted columns asks for memory this many columns ahead: about the time of one cache miss. Half and
@@ -187,4 +187,4 @@ void make_elimination_tree(const SymmetricMatrix& matrix, Span<const std::int32_
   count_columns(out, n, memory);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

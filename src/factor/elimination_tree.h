@@ -7,7 +7,7 @@
 #include "base/span.h"
 #include "factor/matrix.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // The pattern of P A P' and its elimination tree, with the unknowns numbered in postorder of the tree: label[k] is the
 // k-th unknown.
@@ -22,4 +22,4 @@ struct EliminationTree {
 void make_elimination_tree(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory,
                            EliminationTree& out);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

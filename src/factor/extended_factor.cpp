@@ -5,7 +5,7 @@
 #include "base/index.h"
 #include "factor/dissection.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // Paths of the base, and the entries at new unknowns.
@@ -274,4 +274,4 @@ std::shared_ptr<const Factor> extend_factor(std::shared_ptr<const Factor> base, 
   return make_shared_in<ExtendedFactor>(memory, std::move(base), std::move(rows), count, scale, memory);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

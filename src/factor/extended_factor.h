@@ -9,11 +9,11 @@
 #pragma once
 #include "factor/factor.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // rows: by unknown, its row in the base, or size() of the base + j for the j-th new one. Its first `count` entries are
 // the unknowns in use: refactor takes a matrix of these alone. scale: s.
 std::shared_ptr<const Factor> extend_factor(std::shared_ptr<const Factor> base, Vector<std::int32_t>&& rows,
                                             std::int32_t count, double scale, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

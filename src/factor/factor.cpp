@@ -11,7 +11,7 @@
 #include "factor/supernodal_factor.h"
 #include "factor/work_limit.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 class Stopwatch {
@@ -288,4 +288,4 @@ void Factor::solve(const double* right, double* x, std::int32_t channels, double
     std::copy_n(scratch + static_cast<std::size_t>(row[i]) * m, m, x + i * m);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -15,7 +15,7 @@
 #include "base/span.h"
 #include "factor/matrix.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 enum class Ordering : std::int32_t {
   nested_dissection = 0,  // our own multilevel nested dissection on graph and geometry
@@ -190,4 +190,4 @@ class PathGroup {
   virtual double bytes() const noexcept = 0;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

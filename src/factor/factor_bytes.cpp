@@ -10,7 +10,7 @@
 #include "factor/numeric.h"
 #include "factor/supernodal_factor.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 constexpr std::uint64_t magic = 0x524F544341464648ull;  // "HFFACTOR"
@@ -362,4 +362,4 @@ std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, const 
   return factor;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -19,7 +19,7 @@
 #include "base/span.h"
 #include "factor/factor.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // Alignment of bytes that are read in place: a cache line.
 constexpr std::size_t saved_factor_alignment = 64;
@@ -54,4 +54,4 @@ std::uint64_t saved_matrix_hash(Span<const std::uint8_t> bytes);
 std::shared_ptr<const Factor> load_factor(Span<const std::uint8_t> bytes, const LoadOptions& options, Memory& memory,
                                           JobRunner& jobs);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -4,7 +4,7 @@
 
 #include "factor/supernodal_factor.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // Replaces a row w of X or of B X by the row w X^-1 of L or of B. x: the packed triangle X.
@@ -59,4 +59,4 @@ bool SupernodalFactor::rows_of(Span<const std::int32_t> unknowns, SparseVectors&
   return true;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

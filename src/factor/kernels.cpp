@@ -2,7 +2,7 @@
 
 #include "base/compiler.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 #if defined(HF_KERNELS_X86)
 extern const Kernels kernels_avx2_set, kernels_avx512_set;
@@ -44,4 +44,4 @@ const Kernels& choose_kernels() noexcept {
   return kernels_plain_set;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // Kernels may touch this many numbers beyond the end of a scratch block: one AVX-512 vector of doubles.
 constexpr std::size_t widest_vector = 8;
@@ -114,4 +114,4 @@ const Kernels* avx2_kernels() noexcept;
 const Kernels* avx512_kernels() noexcept;
 const Kernels* neon_kernels() noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

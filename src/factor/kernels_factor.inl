@@ -9,8 +9,8 @@
 
 namespace {
 
-using hf_inner::ChildView;
-using hf_inner::FrontView;
+using hf_inner::factor::ChildView;
+using hf_inner::factor::FrontView;
 using D = Simd<double>;
 // This many tiles of 8 rows are solved together, so that their rows stay in the cache while all column blocks pass over
 // them. Half and double factorise a torus of 90,000 vertices in the same time within 4 %.
@@ -214,8 +214,8 @@ void update_block(const FrontView& front, std::int32_t tile_begin, std::int32_t 
   for (std::int32_t tile = tile_begin; tile < tile_end; ++tile) {
     const double* b = rows + tile * stride;
     const std::int64_t step = 8 * static_cast<std::int64_t>(front.below_tiles - tile);
-    double* target =
-        front.update + hf_inner::update_tile_start(front.below_tiles, tile) - 8 * static_cast<std::int64_t>(tile);
+    double* target = front.update + hf_inner::factor::update_tile_start(front.below_tiles, tile) -
+                     8 * static_cast<std::int64_t>(tile);
     std::int32_t v = tile * tile_vectors;
     for (; v + gemm_rows <= v_end; v += gemm_rows) {
       const double* a[gemm_rows];
@@ -262,7 +262,8 @@ inline void add_run(double* target, const double* source, std::int32_t count) no
 // Returns the numbers of column j of a child supernode's update matrix, indexed by its rows.
 inline const double* child_column(const ChildView& child, std::int32_t j) noexcept {
   const std::int64_t tile = j >> 3;
-  return child.update + hf_inner::update_tile_start(child.tiles, tile) + (j & 7) * 8 * (child.tiles - tile) - 8 * tile;
+  return child.update + hf_inner::factor::update_tile_start(child.tiles, tile) + (j & 7) * 8 * (child.tiles - tile) -
+         8 * tile;
 }
 
 void extend_add(const FrontView& front, const ChildView& child, std::int32_t begin, std::int32_t end) {
@@ -287,7 +288,7 @@ void extend_add(const FrontView& front, const ChildView& child, std::int32_t beg
       continue;
     }
     const std::int64_t column = child.place[j] - offset, tile = column >> 3;
-    double* target = front.update + hf_inner::update_tile_start(front.below_tiles, tile) +
+    double* target = front.update + hf_inner::factor::update_tile_start(front.below_tiles, tile) +
                      (column & 7) * 8 * (front.below_tiles - tile) - 8 * tile - offset;
     for (const std::int32_t* r = run; i < child.size; ++r) {
       add_run(target + child.place[i], source + i, r[1] - i);

@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr int most_narrow = hf_inner::narrow_columns;
+constexpr int most_narrow = hf_inner::factor::narrow_columns;
 
 // Returns entry (i, j) of a front's triangle, which is stored in tiles of 8 rows.
 inline double& triangle_entry(double* panel, std::int64_t stride, std::int32_t i, std::int32_t j) noexcept {

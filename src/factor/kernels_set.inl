@@ -15,7 +15,7 @@
 #define HF_PREVIEW_KERNEL(name) name
 #endif
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 extern const Kernels HF_KERNEL_SET = {
     HF_KERNEL_NAME,
@@ -41,4 +41,4 @@ extern const Kernels HF_KERNEL_SET = {
     gram,
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -4,7 +4,7 @@
 
 #include "base/compiler.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // Counts the set bits of a word; the plain instruction set has no instruction for it.
@@ -70,4 +70,4 @@ void LeafOrder::run(std::int32_t* out) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 class LeafOrder {
  public:
@@ -29,4 +29,4 @@ class LeafOrder {
   Vector<std::int32_t> degree_, left_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -3,9 +3,9 @@
 #include "base/span.h"
 #include "base/symmetric_matrix.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // Coordinates of the unknowns, xyz per unknown, for the geometric part of the ordering. May be empty.
 using Coordinates = Span<const float>;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -7,7 +7,7 @@
 #include "base/index.h"
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // Vertices with more neighbours than this times sqrt(n) are eliminated last: trades time for the factor's size. The AMD
@@ -403,4 +403,4 @@ void order_graph_by_minimum_degree(std::int32_t size, const std::int32_t* start,
   if (size > 0) QuotientGraph(size, start, neighbour, memory).run(order.data());
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

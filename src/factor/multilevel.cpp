@@ -4,7 +4,7 @@
 
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // Graphs up to this many vertices are bisected without coarsening. At half the value: the factorisation's flops grow by
@@ -183,4 +183,4 @@ Cut MultilevelBisection::run(const GraphView& graph, std::uint8_t* side) {
   return cut.usable() ? cut : search_.bisect(graph, side, true);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "factor/separator.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 class MultilevelBisection {
  public:
@@ -38,4 +38,4 @@ class MultilevelBisection {
   Vector<std::int32_t> cluster_start_, mark_, queue_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

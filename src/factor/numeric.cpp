@@ -8,7 +8,7 @@
 #include "base/compiler.h"
 #include "base/error.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // The sizes of jobs and distances below trade even loads for the cost of a job or of a cache miss. With half and with
@@ -408,4 +408,4 @@ void require_finite(const SymmetricMatrix& matrix) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -18,7 +18,7 @@
 #include "factor/plan.h"
 #include "factor/symbolic.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // The factor ends with this many spare numbers. Sweeps may read them, but ignore their values.
 constexpr std::size_t value_slack = 64;
@@ -35,4 +35,4 @@ bool all_finite(const double* values, std::size_t count) noexcept;
 // Throws HF_ERROR_NON_FINITE for the first NaN or infinity; index: its column.
 void require_finite(const SymmetricMatrix& matrix);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

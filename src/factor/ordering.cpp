@@ -4,7 +4,7 @@
 #include "factor/dissection.h"
 #include "factor/minimum_degree.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 void require_ordering(Ordering ordering) {
   if (ordering == Ordering::metis) require_metis();
@@ -32,4 +32,4 @@ void make_order(const SymmetricMatrix& matrix, Coordinates coordinates, Ordering
   fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "unknown ordering %d", static_cast<int>(ordering));
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -9,7 +9,7 @@
 #include "factor/factor.h"
 #include "factor/matrix.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // Throws HF_ERROR_UNSUPPORTED if this build does not have the ordering. Callers ask before they do any work.
 void require_ordering(Ordering ordering);
@@ -26,4 +26,4 @@ void order_by_minimum_degree(const SymmetricMatrix& matrix, Memory& memory, Buff
 void require_metis();
 void order_by_metis(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::int32_t>& order);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

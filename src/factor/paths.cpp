@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "factor/supernodal_factor.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // Spare numbers behind the last entries of the elimination paths: vectors are padded and may read or write them.
@@ -264,4 +264,4 @@ void SupernodalFactor::project(const PathGroup& group, const double* z, std::int
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

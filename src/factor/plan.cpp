@@ -4,7 +4,7 @@
 
 #include "base/stable_sort.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // A subtree of supernodes with at most this share of the flops is one task (job of one thread). Four threads get eight
@@ -195,4 +195,4 @@ void make_plan(const Symbolic& symbolic, Memory& memory, Plan& out) {
   place_shared(symbolic, memory, out);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

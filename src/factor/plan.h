@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "factor/symbolic.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 struct Plan {
   // The tasks.
@@ -50,4 +50,4 @@ inline std::int64_t update_size(std::int64_t below) noexcept {
 
 void make_plan(const Symbolic& symbolic, Memory& memory, Plan& out);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -2,7 +2,7 @@
 // time and have relative errors of about 1e-6. Paths, Gram matrices and the dense solve stay double.
 //
 // Refinement removes the error: it computes a residual in double, then a forward and a backward sweep in single
-// precision. Each step multiplies the error by about 1e-6 (engine/green_preview.cpp). One step costs more than a double
+// precision. Each step multiplies the error by about 1e-6 (solve/green_preview.cpp). One step costs more than a double
 // sweep, so a preview is refined after a drag, not during it.
 #pragma once
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include "base/memory.h"
 #include "factor/factor.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 struct Analysis;
 struct Kernels;
@@ -43,4 +43,4 @@ class PreviewFactor {
   Buffer<float> values_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

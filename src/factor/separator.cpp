@@ -7,7 +7,7 @@
 #include "base/principal_axes.h"
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 constexpr std::uint8_t touches_left = 1, touches_right = 2, on_path = 4;
@@ -428,4 +428,4 @@ Cut SeparatorSearch::bisect(const GraphView& graph, std::uint8_t* side, bool tho
   return best;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -10,7 +10,7 @@
 
 #include "base/memory.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // A graph without loops. Both directions of every edge are stored.
 struct GraphView {
@@ -78,4 +78,4 @@ class SeparatorSearch {
   Vector<float> key_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

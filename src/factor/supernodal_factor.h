@@ -8,7 +8,7 @@
 #include "factor/plan.h"
 #include "factor/symbolic.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 struct Analysis {
   Symbolic symbolic;
@@ -108,4 +108,4 @@ class SupernodalFactor final : public Factor {
 
 std::uint64_t hash_pattern(const SymmetricMatrix& matrix) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

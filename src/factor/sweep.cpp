@@ -12,7 +12,7 @@
 #include "factor/preview.h"
 #include "factor/supernodal_factor.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // The sizes of jobs below trade even loads for the cost of a job. On a torus of 102,400 vertices and two threads, half
@@ -414,4 +414,4 @@ void PreviewFactor::backward(double* z, std::int32_t channels, float* scratch, J
 
 std::size_t PreviewFactor::size() const noexcept { return static_cast<std::size_t>(analysis_->symbolic.size); }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

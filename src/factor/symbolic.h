@@ -15,7 +15,7 @@
 #include "base/span.h"
 #include "factor/matrix.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 struct Symbolic {
   // Merging two supernodes may store this many zeros. On a torus with 304,000 vertices, 16 stores 15.4 million numbers
@@ -73,4 +73,4 @@ struct FillEstimate {
 };
 FillEstimate estimate_fill(const SymmetricMatrix& matrix, Span<const std::int32_t> order, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -7,7 +7,7 @@
 #include "factor/ordering.h"
 #include "factor/symbolic.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // A graph is searched from so many unknowns, so many levels deep. The widest level of random triangles is the second to
@@ -65,4 +65,4 @@ void refuse_soup(const SymmetricMatrix& matrix, double flop_limit, double times,
   if (fill.flops > times * flop_limit) require_work(fill.flops, flop_limit);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

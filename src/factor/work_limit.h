@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "factor/matrix.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 
 // Throws HF_ERROR_TOO_LARGE if `flops` exceed `flop_limit`, with both numbers. 0 = no limit.
 void require_work(double flops, double flop_limit);
@@ -17,4 +17,4 @@ constexpr double minimum_degree_times = 4;
 // minimum degree a tenth. Costs a search of some levels on other matrices. Throws HF_ERROR_TOO_LARGE.
 void refuse_soup(const SymmetricMatrix& matrix, double flop_limit, double times, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -26,18 +26,18 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "engine/edited_core.h"
 #include "field/flow_bound.h"
 #include "mesh/laplacian.h"
+#include "surface/edited_core.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 // The smallest and largest site value of each component and channel, and target where the field is screened.
 struct Ranges {
   Ranges(const ScalarField& field, std::size_t components, std::size_t channels, Memory& memory)
       : low(components * channels, HUGE_VAL, &memory), high(components * channels, -HUGE_VAL, &memory) {
-    const SiteSet& sites = field.sites();
+    const solve::SiteSet& sites = field.sites();
     const auto take = [&](std::int32_t component, const double* values) {
       for (std::size_t q = 0; q < channels; ++q) {
         const std::size_t i = at(component) * channels + q;
@@ -49,7 +49,7 @@ struct Ranges {
     for (std::size_t slot = 0; slot < sites.slots().size(); ++slot) {
       if (sites.slots()[slot].used()) take(sites.slots()[slot].site.component, sites.values() + slot * channels);
     }
-    const Screening* screening = field.screening();
+    const solve::Screening* screening = field.screening();
     for (std::size_t v = 0; screening && v < screening->screened->mass.size(); ++v) {
       if (screening->screened->mass[v] > 0)
         take(field.core().mesh.component[v],
@@ -103,12 +103,12 @@ struct SoftRoot {
 };
 
 // The Laplacian of a graph's own weights if the operator has others; else empty.
-SymmetricMatrix given_weights(const Core& core) {
-  const Geometry& plain = core.geometry->unlinked();
-  if (!core.mesh.is_graph() || core.field_kind != FieldKind::harmonic || core.changed_count == 0)
+SymmetricMatrix given_weights(const surface::Core& core) {
+  const surface::Geometry& plain = core.geometry->unlinked();
+  if (!core.mesh.is_graph() || core.field_kind != mesh::FieldKind::harmonic || core.changed_count == 0)
     return SymmetricMatrix(*core.memory);
-  SymmetricMatrix given = laplacian(plain.topology(), plain.weights(), *core.memory, core.jobs.get());
-  if (core.stiffness) stiffen(given, *core.stiffness, *core.memory);
+  SymmetricMatrix given = mesh::laplacian(plain.topology(), plain.weights(), *core.memory, core.jobs.get());
+  if (core.stiffness) surface::stiffen(given, *core.stiffness, *core.memory);
   return given;
 }
 
@@ -157,7 +157,7 @@ class Check {
   }
   bool reached(std::size_t v) const noexcept { return field_.engine().site_count(core_.mesh.component[v]) > 0; }
   std::size_t unit_of(std::size_t v, std::size_t q) const noexcept { return at(core_.mesh.component[v]) * m_ + q; }
-  double compliance(const Site& site) const noexcept {
+  double compliance(const solve::Site& site) const noexcept {
     return site.compliance / core_.mean_diagonal[at(site.component)];
   }
 
@@ -167,7 +167,7 @@ class Check {
   }
 
   void check_sites() {
-    each_site([&](std::size_t slot, const Site& site) {
+    each_site([&](std::size_t slot, const solve::Site& site) {
       found_.overshoot_checked = found_.overshoot_checked && site.is_vertex();
       for (std::size_t q = 0; q < m_; ++q) {
         double error = compliance(site) * flux_[slot * m_ + q] - sites_.values()[slot * m_ + q];
@@ -182,7 +182,7 @@ class Check {
 
   // left += W lambda
   void add_flux(const Vector<double>& flux) {
-    each_site([&](std::size_t slot, const Site& site) {
+    each_site([&](std::size_t slot, const solve::Site& site) {
       for (int corner = 0; corner < 3; ++corner) {
         if (site.vertex[corner] < 0) continue;
         for (std::size_t q = 0; q < m_; ++q)
@@ -193,12 +193,12 @@ class Check {
   // left -= K u, and A H (u - p) where the field is screened. wish: p, or null for 0.
   void subtract_product(const double* u, const double* wish) {
     if (core_.root || screening_) {
-      Workspace product(core_.workspaces, n_ * m_);
+      surface::Workspace product(core_.workspaces, n_ * m_);
       const Index channels = static_cast<Index>(m_);
       if (screening_)
         screening_->screened->multiply(u, wish, channels, product.data());
       else
-        apply_operator(core_, u, channels, product.data());
+        surface::apply_operator(core_, u, channels, product.data());
       for (std::size_t v = 0; v < n_; ++v) {
         for (std::size_t q = 0; reached(v) && q < m_; ++q) left_[v * m_ + q] -= product[v * m_ + q];
       }
@@ -213,7 +213,7 @@ class Check {
   }
 
   void check_residual() {
-    Vector<double> diagonals = operator_diagonal(core_);
+    Vector<double> diagonals = surface::operator_diagonal(core_);
     for (std::size_t v = 0; !core_.root && v < n_; ++v) diagonals[v] = k_.value[k_.diagonal(static_cast<Index>(v))];
     std::fill_n(left_.data(), n_ * m_, 0.0);
     add_flux(flux_);
@@ -258,9 +258,9 @@ class Check {
   }
 
   void check_error() {
-    Workspace change(core_.workspaces, n_ * m_);
+    surface::Workspace change(core_.workspaces, n_ * m_);
     Vector<double> flux_change(&memory_), size(site_error_, &memory_);
-    std::int32_t vertex = Mesh::none;
+    std::int32_t vertex = mesh::Mesh::none;
     const bool corrected = std::isfinite(found_.residual) && correct(u_.data(), flux_, change.data(), flux_change);
     double first = corrected ? size_of(change.data(), vertex, bounded_ ? &size : nullptr) : 0;
     double error = found_.residual;
@@ -275,12 +275,12 @@ class Check {
     } else if (corrected) {
       for (std::size_t i = 0; i < n_ * m_; ++i) u_[i] += change[i];
       for (std::size_t i = 0; i < flux_.size(); ++i) flux_[i] += flux_change[i];
-      std::int32_t elsewhere = Mesh::none;
+      std::int32_t elsewhere = mesh::Mesh::none;
       correct(u_.data(), flux_, change.data(), flux_change);
       const double second = size_of(change.data(), elsewhere);
       error = std::max(first, second) / (1 - (first > 0 ? std::min(second / first, most_left) : 0.0));
     }
-    if (vertex == Mesh::none) vertex = sites_.slots().empty() ? 0 : found_.vertex;
+    if (vertex == mesh::Mesh::none) vertex = sites_.slots().empty() ? 0 : found_.vertex;
     note(found_.error, error, vertex);
   }
 
@@ -296,7 +296,7 @@ class Check {
       SoftRoot& best = hardest[at(component)];
       if (best.vertex < 0 || root.softness < best.softness) best = root;
     };
-    each_site([&](std::size_t, const Site& site) {
+    each_site([&](std::size_t, const solve::Site& site) {
       if (site.is_hard_vertex()) {
         roots.push_back(site.vertex[0]);
         held[at(site.component)] = 1;
@@ -335,15 +335,15 @@ class Check {
   }
 
   const ScalarField& field_;
-  const Core& core_;
+  const surface::Core& core_;
   Memory& memory_;
-  const SiteSet& sites_;
+  const solve::SiteSet& sites_;
   std::size_t n_, m_;
-  const Screening* screening_;   // null: none
-  const SymmetricMatrix given_;  // of a graph's own weights, where the operator has others
+  const solve::Screening* screening_;  // null: none
+  const SymmetricMatrix given_;        // of a graph's own weights, where the operator has others
   const SymmetricMatrix& k_;
   Ranges ranges_;
-  Workspace u_, left_;  // the field, and its remaining residual
+  surface::Workspace u_, left_;  // the field, and its remaining residual
   Vector<double> flux_, site_error_;
   Certificate found_;
   double worst_ = -1;
@@ -352,7 +352,7 @@ class Check {
 
 }  // namespace
 
-double certificate_tolerance(double asked, const SiteSolver& engine) {
+double certificate_tolerance(double asked, const solve::SiteSolver& engine) {
   if (asked == 0) return engine.tolerance();
   if (!(asked > 0) || !std::isfinite(asked))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
@@ -374,4 +374,4 @@ void require_accuracy(const Certificate& found, double tolerance, std::uint32_t 
          worst, vertex, tolerance);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

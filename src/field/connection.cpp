@@ -9,7 +9,7 @@
 #include "base/progress.h"
 #include "field/vector_field.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 constexpr double pi = 3.141592653589793238462643383279502884;
@@ -27,7 +27,7 @@ double wrapped(double angle) noexcept {
   return rest > -pi ? rest : rest + 2 * pi;
 }
 
-double corner_angle(const Mesh& mesh, Index v, Index a, Index b) noexcept {
+double corner_angle(const mesh::Mesh& mesh, Index v, Index a, Index b) noexcept {
   const Vec3 p = mesh.positions[at(a)] - mesh.positions[at(v)], q = mesh.positions[at(b)] - mesh.positions[at(v)];
   return arc_tangent(norm(cross(p, q)), dot(p, q));
 }
@@ -47,7 +47,7 @@ struct Fan {
 
 class FanMaker {
  public:
-  FanMaker(const Mesh& mesh, const Topology& topology, Memory& memory)
+  FanMaker(const mesh::Mesh& mesh, const mesh::Topology& topology, Memory& memory)
       : mesh_(mesh),
         topology_(topology),
         start_(mesh.positions.size() + 1, 0, &memory),
@@ -111,8 +111,8 @@ class FanMaker {
                end = topology_.neighbour.begin() + topology_.neighbour_start[at(v) + 1];
     return static_cast<std::size_t>(std::lower_bound(begin, end, neighbour) - begin);
   }
-  const Mesh& mesh_;
-  const Topology& topology_;
+  const mesh::Mesh& mesh_;
+  const mesh::Topology& topology_;
   Vector<Index> start_, triangle_;
   Vector<Corner> corners_, ends_{corners_.get_allocator()};
 };
@@ -127,7 +127,7 @@ void plane_of(Vec3 n, Vec3& x, Vec3& y) noexcept {
 }
 
 // Turns the vertex's frame in its tangent plane, so that the angles of the edges fit the projected edges best.
-void fit_frame(const Mesh& mesh, const Topology& topology, Index v, const double* angles, Connection& out) {
+void fit_frame(const mesh::Mesh& mesh, const mesh::Topology& topology, Index v, const double* angles, Connection& out) {
   Vec3 &x = out.x[at(v)], &y = out.y[at(v)];
   std::complex<double> sum = 0;
   for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
@@ -157,7 +157,7 @@ Vec3 carry(Vec3 vector, Vec3 from, Vec3 to) noexcept {
   return cosine * vector + cross(axis, vector) + (dot(axis, vector) / (1 + cosine)) * axis;
 }
 
-Connection Connection::make(const Mesh& mesh, const Topology& topology, Memory& memory) {
+Connection Connection::make(const mesh::Mesh& mesh, const mesh::Topology& topology, Memory& memory) {
   Connection out(memory);
   const std::size_t n = mesh.positions.size();
   out.normal = vertex_normals(mesh, memory);
@@ -227,7 +227,7 @@ Connection Connection::make(const Mesh& mesh, const Topology& topology, Memory& 
   return out;
 }
 
-Vector<Index> edge_path(const Mesh& mesh, const Topology& topology, Index from, Index to, Memory& memory) {
+Vector<Index> edge_path(const mesh::Mesh& mesh, const mesh::Topology& topology, Index from, Index to, Memory& memory) {
   Vector<Index> path(&memory);
   if (from == to) return path;
   struct Reached {
@@ -237,9 +237,9 @@ Vector<Index> edge_path(const Mesh& mesh, const Topology& topology, Index from, 
       return distance != o.distance ? distance > o.distance : vertex != o.vertex ? vertex > o.vertex : edge > o.edge;
     }
   };
-  Vector<Index> by(mesh.positions.size(), Mesh::none, &memory);
+  Vector<Index> by(mesh.positions.size(), mesh::Mesh::none, &memory);
   Vector<std::uint8_t> done(mesh.positions.size(), 0, &memory);
-  Vector<Reached> heap(1, Reached{0, from, Mesh::none}, &memory);
+  Vector<Reached> heap(1, Reached{0, from, mesh::Mesh::none}, &memory);
   while (!heap.empty()) {
     std::pop_heap(heap.begin(), heap.end());
     const Reached here = heap.back();
@@ -265,4 +265,4 @@ Vector<Index> edge_path(const Mesh& mesh, const Topology& topology, Index from, 
   return path;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

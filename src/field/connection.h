@@ -20,7 +20,7 @@
 #include "base/hypotenuse.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 // Length and angle of a complex number, and a number with both given. The standard library calls functions of the C
 // library, which round differently from system to system.
@@ -39,7 +39,7 @@ struct Connection {
         curvature(&memory),
         regular(&memory),
         closed(&memory) {}
-  static Connection make(const Mesh& mesh, const Topology& topology, Memory& memory);
+  static Connection make(const mesh::Mesh& mesh, const mesh::Topology& topology, Memory& memory);
 
   // to_frame and to_space convert between a vector in space and a complex number z in the frame of v. The number z
   // stands for the vector Re z x + Im z y.
@@ -52,7 +52,7 @@ struct Connection {
     return z.real() * x[i] + z.imag() * y[i];
   }
   // Returns the angle by which a direction turns when it is carried along edge e to the vertex `to`.
-  double turn(const Topology& topology, std::int32_t e, std::int32_t to) const noexcept {
+  double turn(const mesh::Topology& topology, std::int32_t e, std::int32_t to) const noexcept {
     const double angle = rotation[static_cast<std::size_t>(e)];
     return to == topology.second(e) ? angle : -angle;
   }
@@ -78,7 +78,7 @@ Vec3 carry(Vec3 vector, Vec3 from_normal, Vec3 to_normal) noexcept;
 
 // Returns the edges of a shortest path along mesh edges, in order. The list is empty if `from` is `to`. Both vertices
 // must lie in one component. Cost: O(d log d) for the d vertices that are nearer to `from` than `to` is.
-Vector<std::int32_t> edge_path(const Mesh& mesh, const Topology& topology, std::int32_t from, std::int32_t to,
-                               Memory& memory);
+Vector<std::int32_t> edge_path(const mesh::Mesh& mesh, const mesh::Topology& topology, std::int32_t from,
+                               std::int32_t to, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -5,7 +5,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 struct VertexLink {
@@ -15,7 +15,7 @@ struct VertexLink {
 
 }  // namespace
 
-CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, Span<const double> field,
+CriticalPoints find_critical_points(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const double> field,
                                     Memory& memory) {
   const auto less = [&](Index a, Index b) {
     return field[at(a)] != field[at(b)] ? field[at(a)] < field[at(b)] : a < b;
@@ -64,4 +64,4 @@ CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, 
   return found;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

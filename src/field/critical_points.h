@@ -14,7 +14,7 @@
 #include "base/span.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 enum class CriticalKind : std::int32_t { minimum = 0, maximum = 1, saddle = 2 };
 
@@ -33,7 +33,7 @@ struct CriticalPoints {
 };
 
 // field: one value per welded vertex. NaN means no value; such a vertex and its edges and triangles are left out.
-CriticalPoints find_critical_points(const Mesh& mesh, const Topology& topology, Span<const double> field,
+CriticalPoints find_critical_points(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const double> field,
                                     Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -6,10 +6,10 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/number_pool.h"
-#include "engine/site_set.h"
 #include "mesh/places.h"
+#include "solve/site_set.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 using Complex = std::complex<double>;
@@ -41,7 +41,7 @@ double wrapped(double angle) noexcept { return angle - two_pi * std::nearbyint(a
 
 }  // namespace
 
-DirectionField::DirectionField(std::shared_ptr<const Core> core, std::int32_t degree, std::uint32_t site_limit)
+DirectionField::DirectionField(std::shared_ptr<const surface::Core> core, std::int32_t degree, std::uint32_t site_limit)
     : solver_(std::move(core), degree), site_limit_(site_limit), constraints_(solver_.core().memory.get()) {}
 
 DirectionField::DirectionField(const DirectionField& other)
@@ -103,7 +103,7 @@ void DirectionField::add(std::uint32_t count, const std::uint32_t* vertices, con
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t free = numbers.take([&](std::uint32_t s) { return s < next.size() && next[s].vertex >= 0; });
     if (free == next.size()) next.emplace_back();
-    const Index v = usable_vertex(solver_.core().mesh, vertices[i], i);
+    const Index v = mesh::usable_vertex(solver_.core().mesh, vertices[i], i);
     next[free] = {v, vertices[i], projected(i, v, vectors + std::size_t{3} * i)};
     if (taken[at(v)]) check_free(next, i, free);
     taken[at(v)] = 1;
@@ -120,7 +120,7 @@ void DirectionField::add(std::uint32_t count, const std::uint32_t* vertices, con
 }
 
 void DirectionField::remove(std::uint32_t count, const std::uint32_t* sites) {
-  check_site_count(count, count_);
+  solve::check_site_count(count, count_);
   Vector<DirectionConstraint> next(constraints_, &memory());
   Vector<Index> slots(&memory());
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -136,8 +136,8 @@ void DirectionField::remove(std::uint32_t count, const std::uint32_t* sites) {
 }
 
 void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices) {
-  check_site_count(count, count_);
-  const Core& core = solver_.core();
+  solve::check_site_count(count, count_);
+  const surface::Core& core = solver_.core();
   Vector<DirectionConstraint> next(constraints_, &memory());
   Vector<Index> slots(&memory()), inner(&memory());
   Vector<std::uint8_t> named(next.size(), 0, &memory());
@@ -146,7 +146,7 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
     if (named[sites[i]]++)
       fail(HF_ERROR_NOT_FOUND, i, "entry %u of the list: constraint %u is named twice", i, sites[i]);
     DirectionConstraint& site = next[sites[i]];
-    const Index to = usable_vertex(core.mesh, vertices[i], i);
+    const Index to = mesh::usable_vertex(core.mesh, vertices[i], i);
     if (core.mesh.component[at(to)] != core.mesh.component[at(site.vertex)])
       fail(HF_ERROR_INVALID_ARGUMENT, i,
            "entry %u of the list: vertex %u lies in another component than constraint %u; remove it there and add it "
@@ -173,7 +173,7 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
 
 template <class Work>
 void DirectionField::update(std::uint32_t count, const std::uint32_t* sites, Work&& work) {
-  check_site_count(count, count_);
+  solve::check_site_count(count, count_);
   Vector<DirectionConstraint> next(constraints_, &memory());
   for (std::uint32_t i = 0; i < count; ++i) {
     check_site(next, i, sites[i]);
@@ -217,7 +217,7 @@ void DirectionField::solve(Vec3* out) const {
 namespace {
 
 // Adds up the singularities of the triangles that one face is cut into. The numbers of a surface of triangles stay.
-Vector<Singularity> by_face(const Mesh& mesh, Vector<Singularity> found) {
+Vector<Singularity> by_face(const mesh::Mesh& mesh, Vector<Singularity> found) {
   if (mesh.faces.empty()) return found;
   std::size_t count = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -237,7 +237,7 @@ Vector<Singularity> by_face(const Mesh& mesh, Vector<Singularity> found) {
 
 Vector<Singularity> DirectionField::singularities() const {
   const Vector<Complex> field = solved();
-  const Core& core = solver_.core();
+  const surface::Core& core = solver_.core();
   const Connection& connection = solver_.connection();
   const Index n = solver_.degree();
   // Stores, for each edge, how much more the field turns along it than a direction that is carried along the edge. Seen
@@ -270,4 +270,4 @@ Vector<Singularity> DirectionField::singularities() const {
   return by_face(core.mesh, std::move(found));
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -17,7 +17,7 @@
 
 #include "field/direction_solver.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 struct DirectionConstraint {
   std::int32_t vertex = -1;                  // inner vertex; -1 marks an unused entry
@@ -33,7 +33,7 @@ struct Singularity {
 
 class DirectionField {
  public:
-  DirectionField(std::shared_ptr<const Core> core, std::int32_t degree, std::uint32_t site_limit);
+  DirectionField(std::shared_ptr<const surface::Core> core, std::int32_t degree, std::uint32_t site_limit);
 
   // Edits of the constraints. Each edit does everything or throws; the error index is the position in the list.
   void add(std::uint32_t count, const std::uint32_t* vertices, const double* vectors, std::uint32_t* out_sites);
@@ -72,4 +72,4 @@ class DirectionField {
   std::uint32_t count_ = 0;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

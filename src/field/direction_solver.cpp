@@ -4,16 +4,16 @@
 
 #include "base/error.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 Index DirectionSolver::eliminated_count() const noexcept {
   Index parts = 0;
-  for (const ConstraintState::Entry& entry : constraints_.state().entries) parts += entry.eliminated >= 0;
+  for (const solve::ConstraintState::Entry& entry : constraints_.state().entries) parts += entry.eliminated >= 0;
   return parts / 2;
 }
 
 DirectionCounters DirectionSolver::counters() const noexcept {
-  const ConstraintCounts counts = constraints_.counts();
+  const solve::ConstraintCounts counts = constraints_.counts();
   DirectionCounters counters;
   // One of the system, and one per rebase (constraints taken into the factor).
   counters.factorisations = 1 + counts.rebases;
@@ -25,7 +25,7 @@ DirectionCounters DirectionSolver::counters() const noexcept {
 
 void DirectionSolver::edit(const Edit& edit) {
   Vector<Index> remove(&memory()), add(&memory());
-  Vector<Site> sites(&memory());
+  Vector<solve::Site> sites(&memory());
   for (const Index slot : edit.remove) {
     remove.push_back(2 * slot);
     remove.push_back(2 * slot + 1);
@@ -34,7 +34,7 @@ void DirectionSolver::edit(const Edit& edit) {
     for (Index part = 0; part < 2; ++part) {
       const Index v = edit.vertices[i];
       add.push_back(2 * edit.add[i] + part);
-      sites.push_back(Site::at_unknown(system_->unknown(v, part), core().mesh.component[at(v)]));
+      sites.push_back(solve::Site::at_unknown(system_->unknown(v, part), core().mesh.component[at(v)]));
     }
   }
   try {
@@ -48,8 +48,8 @@ void DirectionSolver::edit(const Edit& edit) {
 
 void DirectionSolver::solve(Span<const std::complex<double>> values, std::complex<double>* field) const {
   const std::size_t unknowns = at(system_->matrix.size());
-  Workspace z(core().workspaces, unknowns);
-  ConstraintSystem::Answer answer(memory());
+  surface::Workspace z(core().workspaces, unknowns);
+  solve::ConstraintSystem::Answer answer(memory());
   // A complex number is its real and imaginary part in order. They are the values of two sites.
   constraints_.sweep(reinterpret_cast<const double*>(values.data()), 1, 0, 1, answer, z.data());
   const Span<const Index> row = system_->factor->position();
@@ -65,4 +65,4 @@ void DirectionSolver::solve(Span<const std::complex<double>> values, std::comple
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

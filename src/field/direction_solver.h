@@ -1,5 +1,5 @@
 // Solves the smoothest vector fields through constraints that can be edited. It has its own factor, of the connection
-// Laplacian. The constraints go through the constraint system that scalar fields use (engine/constraint_system.h).
+// Laplacian. The constraints go through the constraint system that scalar fields use (solve/constraint_system.h).
 //
 //     E(z) = sum over edges of w_ij |z_j - r_ij z_i|^2,   r_ij = exp(i n rotation_ij)      (Knoeppel et al. 2013)
 //
@@ -10,10 +10,10 @@
 // effect of the pinned unknowns from the solution, with their elimination paths. A constraint consists of two sites,
 // one for each real unknown. A new value of a constraint costs a dense solve and a backward sweep.
 #pragma once
-#include "engine/constraint_system.h"
 #include "field/direction_system.h"
+#include "solve/constraint_system.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 struct DirectionCounters {
   std::uint32_t factorisations = 0, path_solves = 0, sweeps = 0;
@@ -23,7 +23,7 @@ struct DirectionCounters {
 class DirectionSolver {
  public:
   // degree: 1 for vectors, 2 for lines, 4 for crosses; at least 1. Throws what Factor::make throws.
-  DirectionSolver(std::shared_ptr<const Core> core, std::int32_t degree)
+  DirectionSolver(std::shared_ptr<const surface::Core> core, std::int32_t degree)
       : DirectionSolver(make_owner_in<DirectionSystem>(core->memory, core, degree)) {}
   // Makes a solver without constraints. Other solvers may share `system` (matrix and factor).
   explicit DirectionSolver(std::shared_ptr<const DirectionSystem> system)
@@ -48,7 +48,7 @@ class DirectionSolver {
   // form. Vertices of components without a constraint get 0.
   void solve(Span<const std::complex<double>> values, std::complex<double>* field) const;
 
-  const Core& core() const noexcept { return *system_->core; }
+  const surface::Core& core() const noexcept { return *system_->core; }
   const DirectionSystem& system() const noexcept { return *system_; }
   const Connection& connection() const noexcept { return system_->connection; }
   const SymmetricMatrix& matrix() const noexcept { return system_->matrix; }
@@ -56,21 +56,21 @@ class DirectionSolver {
   Index constraint_count(Index component) const noexcept { return constraints_.state().sites_of[at(component)] / 2; }
   bool eliminates() const noexcept { return constraints_.state().base != nullptr; }
   Index eliminated_count() const noexcept;  // constraints in the factor at present
-  const FactorStatistics& statistics() const noexcept { return system_->factor->statistics(); }
+  const factor::FactorStatistics& statistics() const noexcept { return system_->factor->statistics(); }
   double operator_ms() const noexcept { return system_->operator_ms; }
   DirectionCounters counters() const noexcept;
 
   // snapshot returns the present constraints; their paths and dense blocks are shared, not copied. restore goes back to
   // a snapshot bit for bit.
-  std::shared_ptr<const ConstraintState> snapshot() const { return constraints_.snapshot(); }
-  void restore(const ConstraintState& state) { constraints_.restore(state); }
+  std::shared_ptr<const solve::ConstraintState> snapshot() const { return constraints_.snapshot(); }
+  void restore(const solve::ConstraintState& state) { constraints_.restore(state); }
 
  private:
   Memory& memory() const noexcept { return *core().memory; }
 
   std::shared_ptr<const DirectionSystem> system_;  // before the constraints, which read it
   // Site 2 s is the real part of constraint s, site 2 s + 1 the imaginary part.
-  ConstraintSystem constraints_;
+  solve::ConstraintSystem constraints_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

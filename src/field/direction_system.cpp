@@ -8,7 +8,7 @@
 #include "base/timer.h"
 #include "factor/ordering.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 // If the surface's operator lacks more than this share of the mesh edges, the mesh gets an ordering of its own. A few
@@ -21,7 +21,7 @@ constexpr std::size_t piece = 8192;
 constexpr float progress_connection = 0.05f, progress_ordered_directions = 0.3f;
 
 // Returns the number of mesh edges that the surface's operator does not have.
-double missing_edges(const Core& core) {
+double missing_edges(const surface::Core& core) {
   const SymmetricMatrix& k = core.matrix();
   std::size_t missing = 0;
   for (std::size_t v = 0; v < at(core.size()); ++v) {
@@ -36,7 +36,7 @@ double missing_edges(const Core& core) {
 
 }  // namespace
 
-DirectionMatrix::DirectionMatrix(std::shared_ptr<const Core> given, Index n)
+DirectionMatrix::DirectionMatrix(std::shared_ptr<const surface::Core> given, Index n)
     : core(std::move(given)),
       degree(n),
       connection(Connection::make(core->mesh, core->topology(), *core->memory)),
@@ -53,15 +53,15 @@ DirectionMatrix::DirectionMatrix(std::shared_ptr<const Core> given, Index n)
   operator_ms = timer.milliseconds();
 }
 
-std::shared_ptr<const Factor> DirectionMatrix::factorise(const SymmetricMatrix& like) const {
+std::shared_ptr<const factor::Factor> DirectionMatrix::factorise(const SymmetricMatrix& like) const {
   const ProgressRange range(progress_ordered_directions, 1.0f);
-  FactorOptions options;
-  options.ordering = Ordering::natural;  // the unknowns stand in the order of the surface's factor
+  factor::FactorOptions options;
+  options.ordering = factor::Ordering::natural;  // the unknowns stand in the order of the surface's factor
   options.flop_limit = core->flop_limit;
-  return Factor::make(like, {}, options, *core->memory, *core->jobs);
+  return factor::Factor::make(like, {}, options, *core->memory, *core->jobs);
 }
 
-DirectionSystem::DirectionSystem(std::shared_ptr<const Core> given, Index n)
+DirectionSystem::DirectionSystem(std::shared_ptr<const surface::Core> given, Index n)
     : DirectionMatrix(std::move(given), n),
       beta(core->memory.get()),
       pins(core->memory.get()),
@@ -69,8 +69,8 @@ DirectionSystem::DirectionSystem(std::shared_ptr<const Core> given, Index n)
   make_pins();
 }
 
-PinnedOperator DirectionSystem::pinned_operator() const noexcept {
-  PinnedOperator a;
+solve::PinnedOperator DirectionSystem::pinned_operator() const noexcept {
+  solve::PinnedOperator a;
   a.matrix = &matrix;
   a.factor = factor.get();
   a.pins = pins;
@@ -85,11 +85,11 @@ void DirectionMatrix::make_order() {
   const Span<const Index> own = core->factor->position();
   position.assign(own.begin(), own.end());
   if (missing_edges(*core) > missing_share * core->topology().edge_count()) {
-    const SymmetricMatrix graph = laplacian(core->topology(), core->weights(), *core->memory, core->jobs.get());
-    const Vector<float> coordinates = ordering_coordinates(core->mesh, *core->memory);
+    const SymmetricMatrix graph = mesh::laplacian(core->topology(), core->weights(), *core->memory, core->jobs.get());
+    const Vector<float> coordinates = surface::ordering_coordinates(core->mesh, *core->memory);
     Buffer<Index> made;
-    hf_inner::make_order(graph, {coordinates.data(), coordinates.size()}, core->ordering, *core->memory, *core->jobs,
-                         made);
+    hf_inner::factor::make_order(graph, {coordinates.data(), coordinates.size()}, core->ordering, *core->memory,
+                                 *core->jobs, made);
     for (Index k = 0; k < core->size(); ++k) position[at(made[k])] = k;
   }
   for (Index v = 0; v < core->size(); ++v) order[at(position[at(v)])] = v;
@@ -99,10 +99,10 @@ void DirectionMatrix::make_order() {
 // block between two neighbours is -w R, with w the weight of their edge and R the rotation from the column's frame to
 // the row's frame.
 void DirectionMatrix::make_matrix() {
-  const Topology& topology = core->topology();
+  const mesh::Topology& topology = core->topology();
   const std::size_t n = at(core->size());
   const Vector<double> weights =
-      edge_weights(core->mesh, topology, OperatorKind::clamped, *core->memory, core->jobs.get());
+      mesh::edge_weights(core->mesh, topology, mesh::OperatorKind::clamped, *core->memory, core->jobs.get());
   matrix.column_start.resize(2 * n + 1);
   matrix.column_start[0] = 0;
   Poller poller;
@@ -187,15 +187,15 @@ void DirectionSystem::make_pins() {
   pin_paths.column.resize(pins.size());
   factor->solve_paths({start, pins, ones}, *core->memory, *core->jobs, pin_paths.groups, pin_paths.group,
                       pin_paths.column);
-  double tile[PathGroup::capacity * PathGroup::capacity];
+  double tile[factor::PathGroup::capacity * factor::PathGroup::capacity];
   for (std::size_t i = 0; i < pins.size(); ++i) {
     for (std::size_t j = i / 2 * 2; j < i / 2 * 2 + 2; ++j) {
       factor->gram(*pin_paths.groups[at(pin_paths.group[i])], *pin_paths.groups[at(pin_paths.group[j])], tile,
-                   PathGroup::capacity);
-      pin_paths.corner.push_back(tile[pin_paths.column[i] * PathGroup::capacity + pin_paths.column[j]] -
+                   factor::PathGroup::capacity);
+      pin_paths.corner.push_back(tile[pin_paths.column[i] * factor::PathGroup::capacity + pin_paths.column[j]] -
                                  (i == j ? 1 / beta[i / 2] : 0.0));
     }
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

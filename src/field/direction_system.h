@@ -6,22 +6,22 @@
 // Delaunay operator can have many other edges. In that case the unknowns get an ordering computed from the edges of the
 // mesh.
 #pragma once
-#include "engine/core.h"
-#include "engine/pinned_operator.h"
 #include "field/connection.h"
+#include "solve/pinned_operator.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 class DirectionMatrix {
  public:
   // Throws what computing an ordering throws.
-  DirectionMatrix(std::shared_ptr<const Core> core, Index degree);
+  DirectionMatrix(std::shared_ptr<const surface::Core> core, Index degree);
   Index unknown(Index vertex, Index part) const noexcept { return 2 * position[at(vertex)] + part; }
   Index vertex_of(Index unknown) const noexcept { return order[at(unknown / 2)]; }
   // Factorises a matrix of this pattern and order.
-  std::shared_ptr<const Factor> factorise(const SymmetricMatrix& like) const;
+  std::shared_ptr<const factor::Factor> factorise(const SymmetricMatrix& like) const;
 
-  std::shared_ptr<const Core> core;  // first member: outlives everything that is allocated from its memory
+  std::shared_ptr<const surface::Core> core;  // first member: outlives everything that is allocated from its memory
   Index degree;
   Connection connection;
   Vector<Index> position, order;  // of every vertex in the order of elimination, and back
@@ -36,17 +36,17 @@ class DirectionMatrix {
 class DirectionSystem : public DirectionMatrix {
  public:
   // Throws what Factor::make throws.
-  DirectionSystem(std::shared_ptr<const Core> core, Index degree);
+  DirectionSystem(std::shared_ptr<const surface::Core> core, Index degree);
   // Returns the operator K for a ConstraintSystem. Each component has two pinned unknowns (raised diagonals).
-  PinnedOperator pinned_operator() const noexcept;
+  solve::PinnedOperator pinned_operator() const noexcept;
 
-  std::shared_ptr<const Factor> factor;  // of K with raised diagonals at `pins`
-  Vector<double> beta;                   // by component: how much the diagonals are raised
-  Vector<Index> pins;                    // unknowns with raised diagonals, two by component
-  PinPaths pin_paths;
+  std::shared_ptr<const factor::Factor> factor;  // of K with raised diagonals at `pins`
+  Vector<double> beta;                           // by component: how much the diagonals are raised
+  Vector<Index> pins;                            // unknowns with raised diagonals, two by component
+  solve::PinPaths pin_paths;
 
  private:
   void make_pins();
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

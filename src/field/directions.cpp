@@ -2,7 +2,7 @@
 
 #include "field/directions.inl"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 #ifdef HF_DIRECTIONS_X86
 void add_directions_avx2(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept;
@@ -17,4 +17,4 @@ void add_directions(const DirectionSums& job, std::int64_t begin, std::int64_t e
   add_directions_range(job, begin, end);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -6,7 +6,7 @@
 #pragma once
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 // A triangle of non-zero area in its own plane. The corners are (0, 0), (along, 0) and (px, py).
 struct TriangleFrame {
@@ -25,4 +25,4 @@ struct DirectionSums {
 
 void add_directions(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

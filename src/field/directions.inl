@@ -31,7 +31,7 @@ inline double sum_of(double x) noexcept { return x; }
 
 // Adds the directions of one triangle. Number is double or Eight. Bits is the integer type of the same size.
 template <class Number, class Bits>
-inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, const double* u1, const double* u2,
+inline void add_lanes(const hf_inner::field::TriangleFrame& frame, const double* u0, const double* u1, const double* u2,
                       const double* weights, double* sums) noexcept {
   constexpr std::int64_t magnitude = 0x7fffffffffffffff, exponent = 0x7ff0000000000000, largest = 0x7fe0000000000000;
   Number a, d1, d2, weight;
@@ -78,10 +78,10 @@ inline void add_lanes(const hf_inner::TriangleFrame& frame, const double* u0, co
   sums[1] -= sum_of(y);
 }
 
-void add_directions_range(const hf_inner::DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept {
+void add_directions_range(const hf_inner::field::DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept {
   const std::int64_t channels = job.channels;
   for (std::int64_t t = begin; t < end; ++t) {
-    const hf_inner::TriangleFrame& frame = job.frame[t];
+    const hf_inner::field::TriangleFrame& frame = job.frame[t];
     const double* u0 = job.heat + frame.row[0] * channels;
     const double* u1 = job.heat + frame.row[1] * channels;
     const double* u2 = job.heat + frame.row[2] * channels;

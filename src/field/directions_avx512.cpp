@@ -2,11 +2,11 @@
 #include "field/directions.h"
 #include "field/directions.inl"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 void add_directions_avx512(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept;
 void add_directions_avx512(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept {
   add_directions_range(job, begin, end);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -7,16 +7,16 @@
 #include "base/elementary.h"
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 constexpr double full_turn = 6.28318530717958647692;
 
 }  // namespace
 
-Distances::Distances(const Surface& surface, DistanceMethod method, double smoothing)
+Distances::Distances(const surface::Surface& surface, DistanceMethod method, double smoothing)
     : geometry_(surface.unlinked_geometry()) {
-  const Geometry& g = *geometry_;
+  const surface::Geometry& g = *geometry_;
   if (method == DistanceMethod::automatic)
     method = g.mesh.vertex_count() <= most_exact_vertices ? DistanceMethod::exact : DistanceMethod::front;
   if (method == DistanceMethod::heat) heat_.emplace(surface.unlinked_core(), smoothing);
@@ -29,7 +29,7 @@ void Distances::solve(Span<const Index> sources, double* out) const {
   if (front_) {
     front_->distance(sources, out);
   } else {
-    const ExactDistance exact = exact_distance(*sides_, sources, *geometry_->memory);
+    const mesh::ExactDistance exact = mesh::exact_distance(*sides_, sources, *geometry_->memory);
     std::copy(exact.distance.begin(), exact.distance.end(), out);
   }
   for (Index v = 0; v < geometry_->mesh.vertex_count(); ++v) {
@@ -37,14 +37,14 @@ void Distances::solve(Span<const Index> sources, double* out) const {
   }
 }
 
-void Distances::log_map(const TriangleSides& sides, const GeodesicPoint& from, double reach, double* out,
+void Distances::log_map(const mesh::TriangleSides& sides, const mesh::GeodesicPoint& from, double reach, double* out,
                         Vec3 frame[2]) const {
-  const Mesh& mesh = geometry_->mesh;
-  ExactTask task;
+  const mesh::Mesh& mesh = geometry_->mesh;
+  mesh::ExactTask task;
   task.from = &from;
   task.directions = true;
   task.reach = reach;
-  const ExactDistance found = exact_distance(sides, task, *geometry_->memory);
+  const mesh::ExactDistance found = mesh::exact_distance(sides, task, *geometry_->memory);
   // Around a vertex that is no flat place the angles are scaled to 2 pi in all.
   const double scale = found.closed_fan && from.vertex >= 0 ? full_turn / found.fan_angle : 1.0;
   for (std::size_t v = 0; v < found.distance.size(); ++v) {
@@ -66,4 +66,4 @@ void Distances::log_map(const TriangleSides& sides, const GeodesicPoint& from, d
   frame[1] = unit_vector(cross(z, x));
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -3,12 +3,12 @@
 #include <memory>
 #include <optional>
 
-#include "engine/surface.h"
 #include "field/geodesics.h"
 #include "mesh/exact_path.h"
 #include "mesh/front_distance.h"
+#include "surface/surface.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 enum class DistanceMethod : std::int32_t { automatic = 0, front = 1, exact = 2, heat = 3 };
 
@@ -20,7 +20,7 @@ constexpr std::int32_t most_exact_vertices = 10000;
 class Distances {
  public:
   // The heat method takes the harmonic factor of the surface and makes one of its own. The others need no factor.
-  Distances(const Surface& surface, DistanceMethod method, double smoothing);
+  Distances(const surface::Surface& surface, DistanceMethod method, double smoothing);
 
   // Writes the distance to the nearest source by inner vertex, -1 where no source reaches. The unit is the box
   // diagonal. The sources are at least one vertex. Reports progress, except for heat.
@@ -30,23 +30,24 @@ class Distances {
   template <class Work>
   auto with_sides(Work&& work) const {
     if (sides_) return work(*sides_);
-    const TriangleSides made(geometry_->mesh, geometry_->topology(), *geometry_->memory);
+    const mesh::TriangleSides made(geometry_->mesh, geometry_->topology(), *geometry_->memory);
     return work(made);
   }
 
   // Writes two coordinates by inner vertex: the length of the shortest path from a point, in its direction there. NaN
   // beyond `reach` (0: no bound) and where no path leads. frame: the directions of the two axes in space.
-  void log_map(const TriangleSides& sides, const GeodesicPoint& from, double reach, double* out, Vec3 frame[2]) const;
+  void log_map(const mesh::TriangleSides& sides, const mesh::GeodesicPoint& from, double reach, double* out,
+               Vec3 frame[2]) const;
 
-  const Geometry& geometry() const noexcept { return *geometry_; }
+  const surface::Geometry& geometry() const noexcept { return *geometry_; }
   // Returns the tables of the heat method, or null.
   const Geodesics* heat() const noexcept { return heat_ ? &*heat_ : nullptr; }
 
  private:
-  std::shared_ptr<const Geometry> geometry_;
+  std::shared_ptr<const surface::Geometry> geometry_;
   std::optional<Geodesics> heat_;
-  std::optional<TriangleSides> sides_;
-  std::optional<FrontDistance> front_;
+  std::optional<mesh::TriangleSides> sides_;
+  std::optional<mesh::FrontDistance> front_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

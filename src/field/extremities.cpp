@@ -9,12 +9,12 @@
 #include "field/peaks.h"
 #include "mesh/link_constants.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 // Calls work(component, begin, end) for every run of consecutive vertices of one component.
 template <class Work>
-void for_runs(const Core& core, Work&& work) {
+void for_runs(const surface::Core& core, Work&& work) {
   const SharedVector<Index>& component = core.mesh.component;
   for (std::size_t begin = 0, end = 0; begin < component.size(); begin = end) {
     for (end = begin + 1; end < component.size() && component[end] == component[begin];) ++end;
@@ -23,13 +23,13 @@ void for_runs(const Core& core, Work&& work) {
 }
 
 // A light piece counts as its edges do, so that no tip of a sheet rises above the body: the field falls as much there.
-double area_of(const Core& core, std::size_t v) noexcept {
-  const Links* const links = core.geometry->links.get();
-  return links && links->light[at(links->piece[v])] ? light_share * core.areas[v] : core.areas[v];
+double area_of(const surface::Core& core, std::size_t v) noexcept {
+  const mesh::Links* const links = core.geometry->links.get();
+  return links && links->light[at(links->piece[v])] ? mesh::light_share * core.areas[v] : core.areas[v];
 }
 
 // Returns the area of every component.
-Vector<double> component_areas(const Core& core) {
+Vector<double> component_areas(const surface::Core& core) {
   Vector<double> total(core.ground.size(), 0.0, core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     double sum = total[c];
@@ -40,7 +40,7 @@ Vector<double> component_areas(const Core& core) {
 }
 
 // Returns the vertex of each component that is farthest from the centroid of the component.
-Vector<Index> farthest_vertices(const Core& core, const Vector<double>& total) {
+Vector<Index> farthest_vertices(const surface::Core& core, const Vector<double>& total) {
   const std::size_t components = core.ground.size();
   Vector<Vec3> centre(components, core.memory.get());
   Vector<double> most(components, -1.0, core.memory.get());
@@ -76,7 +76,7 @@ constexpr Index unseen = std::numeric_limits<Index>::max();
 // Breadth-first search from a vertex, over vertices whose level is `unseen`. It writes the level of each vertex, which
 // is its number of edges from the start, and lists the vertices in `queue`. Returns how many vertices it found. The
 // queue needs room for the number of vertices plus one.
-std::size_t search_levels(const Topology& topology, Index from, Index* level, Index* queue) {
+std::size_t search_levels(const mesh::Topology& topology, Index from, Index* level, Index* queue) {
   const Index *const start = topology.neighbour_start.data(), *const neighbour = topology.neighbour.data();
   std::size_t head = 0, tail = 0;
   queue[tail++] = from;
@@ -96,8 +96,7 @@ std::size_t search_levels(const Topology& topology, Index from, Index* level, In
 
 // Returns the vertex of the last level that is farthest from the start in space. Many may have that level, and which of
 // them the search finds last follows from the order of the vertices.
-Index last_vertex(Span<const Vec3> positions, Index from, const Index* level, const Index* queue,
-                  std::size_t count) {
+Index last_vertex(Span<const Vec3> positions, Index from, const Index* level, const Index* queue, std::size_t count) {
   Index best = queue[count - 1];
   for (std::size_t i = count; i-- > 0 && level[at(queue[i])] == level[at(best)];) {
     const Vec3 here = positions[at(queue[i])] - positions[at(from)], there = positions[at(best)] - positions[at(from)];
@@ -109,8 +108,8 @@ Index last_vertex(Span<const Vec3> positions, Index from, const Index* level, co
 // Marks a ring of vertices around the middle of each component. A breadth-first search starts at the farthest vertex.
 // The ring is about half as many edges away from there as the last vertex that the search finds, on the way to the
 // farthest of these. The ring is edge-connected.
-void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uint8_t>& middle) {
-  const Topology& topology = core.topology();
+void mark_middles(const surface::Core& core, const Vector<double>& total, Vector<std::uint8_t>& middle) {
+  const mesh::Topology& topology = core.topology();
   const std::size_t n = middle.size();
   Vector<Index> levels(n, unseen, core.memory.get()), waiting(n + 1, core.memory.get());
   Index *const level = levels.data(), *const queue = waiting.data();
@@ -121,11 +120,11 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
     Index v = last_vertex(core.mesh.positions, from, level, queue, tail);
     const Index half = level[at(v)] / 2;
     while (level[at(v)] > half) {
-      Index below = Mesh::none;
+      Index below = mesh::Mesh::none;
       for (Index i = start[at(v)]; i < start[at(v) + 1]; ++i) {
         const Index w = neighbour[at(i)];
         if (level[at(w)] + 1 != level[at(v)]) continue;
-        if (below == Mesh::none || away(w) < away(below)) below = w;
+        if (below == mesh::Mesh::none || away(w) < away(below)) below = w;
       }
       v = below;
     }
@@ -148,14 +147,14 @@ void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uin
 
 // Solves the Poisson equation for u. Every vertex is a source of its area. The ring of vertices around the middle of
 // each component takes all of it in evenly.
-void solve_poisson(const Core& core, const Vector<double>& total, Vector<double>& u) {
+void solve_poisson(const surface::Core& core, const Vector<double>& total, Vector<double>& u) {
   Vector<std::uint8_t> middle(u.size(), 0, core.memory.get());
   mark_middles(core, total, middle);
   Vector<double> taken(total.size(), 0.0, core.memory.get());
   for (std::size_t v = 0; v < u.size(); ++v) {
     if (middle[v]) taken[at(core.mesh.component[v])] += area_of(core, v);
   }
-  Workspace z(core.workspaces, u.size());
+  surface::Workspace z(core.workspaces, u.size());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {
     // A middle ring without area takes nothing in. The right side of its component is then 0, so nothing flows into the
     // vertex that makes the matrix regular.
@@ -171,7 +170,7 @@ double length_of(double fall, bool poisson) noexcept {
 }
 
 // Adds the maxima (tips) of found.field to the list if their limbs are long enough, with the lengths.
-void propose(const Core& core, const Vector<double>& total, double least_length_share, bool poisson,
+void propose(const surface::Core& core, const Vector<double>& total, double least_length_share, bool poisson,
              Extremities& found) {
   const Vector<double>& u = found.field;
   const Vector<Peak> peaks = find_peaks(core.topology(), u, *core.memory);
@@ -190,12 +189,12 @@ void propose(const Core& core, const Vector<double>& total, double least_length_
     return true;
   };
   for (const Peak& peak : peaks) {
-    if (peak.saddle == Mesh::none || !propose_one(peak, u[at(peak.saddle)])) continue;
+    if (peak.saddle == mesh::Mesh::none || !propose_one(peak, u[at(peak.saddle)])) continue;
     double& level = base[at(core.mesh.component[at(peak.vertex)])];
     level = std::min(level, u[at(peak.saddle)]);
   }
   for (const Peak& peak : peaks) {
-    if (peak.saddle == Mesh::none) propose_one(peak, base[at(core.mesh.component[at(peak.vertex)])]);
+    if (peak.saddle == mesh::Mesh::none) propose_one(peak, base[at(core.mesh.component[at(peak.vertex)])]);
   }
   std::sort(found.points.begin(), found.points.end(), [](const Extremity& a, const Extremity& b) {
     return a.length != b.length ? a.length > b.length : a.vertex < b.vertex;
@@ -204,7 +203,7 @@ void propose(const Core& core, const Vector<double>& total, double least_length_
 
 }  // namespace
 
-Extremities poisson_extremities(const Core& core, double least_length_share) {
+Extremities poisson_extremities(const surface::Core& core, double least_length_share) {
   constexpr float summed = 0.1f, solved = 0.8f;  // reported progress, by the usual share of time
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
@@ -218,7 +217,7 @@ Extremities poisson_extremities(const Core& core, double least_length_share) {
 }
 
 Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length_share) {
-  const Core& core = geodesics.core();
+  const surface::Core& core = geodesics.core();
   Extremities found(*core.memory);
   found.field.resize(at(core.size()));
   {
@@ -231,7 +230,7 @@ Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source
   return found;
 }
 
-Extremities geodesic_extremities(std::shared_ptr<const Core> core, double smoothing, std::int32_t source_count,
+Extremities geodesic_extremities(std::shared_ptr<const surface::Core> core, double smoothing, std::int32_t source_count,
                                  double least_length_share) {
   constexpr float factored = 0.3f;  // share of progress
   const std::optional<Geodesics> geodesics = [&] {
@@ -242,4 +241,4 @@ Extremities geodesic_extremities(std::shared_ptr<const Core> core, double smooth
   return geodesic_extremities(*geodesics, source_count, least_length_share);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -21,7 +21,7 @@
 #include "base/progress.h"
 #include "field/geodesics.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 struct Extremity {
   std::int32_t vertex;  // inner
@@ -37,10 +37,10 @@ struct Extremities {
 
 // Find the tips by the Poisson field, or by mean geodesic distances. The core is harmonic and
 // has its factor.
-Extremities poisson_extremities(const Core& core, double least_length_share);
+Extremities poisson_extremities(const surface::Core& core, double least_length_share);
 Extremities geodesic_extremities(const Geodesics& geodesics, std::int32_t source_count, double least_length_share);
 // The same, but makes the geodesics itself, with that smoothing.
-Extremities geodesic_extremities(std::shared_ptr<const Core> core, double smoothing, std::int32_t source_count,
+Extremities geodesic_extremities(std::shared_ptr<const surface::Core> core, double smoothing, std::int32_t source_count,
                                  double least_length_share);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 // Classes of weights, each four times the next, that the tree takes one after the other: weak edges come last, and
@@ -19,7 +19,7 @@ struct Edge {
 
 }  // namespace
 
-FlowBound::FlowBound(const Core& core, const SymmetricMatrix& k, Span<const Index> roots)
+FlowBound::FlowBound(const surface::Core& core, const SymmetricMatrix& k, Span<const Index> roots)
     : core_(core),
       order_(core.memory.get()),
       parent_(at(core.size()), not_reached, core.memory.get()),
@@ -97,4 +97,4 @@ Vector<double> FlowBound::bound(double* r, std::size_t channels) const {
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

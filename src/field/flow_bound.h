@@ -11,25 +11,25 @@
 #pragma once
 #include "base/index.h"
 #include "base/span.h"
-#include "engine/core.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 class FlowBound {
  public:
   // k: K, or a matrix with its weights off the diagonal. roots: vertices where e is 0, at least one in every component
   // that is asked about. Cost: a pass over the edges.
-  FlowBound(const Core& core, const SymmetricMatrix& k, Span<const Index> roots);
+  FlowBound(const surface::Core& core, const SymmetricMatrix& k, Span<const Index> roots);
 
   // The bound of every component and channel; r: vertex * channels + c, overwritten with the flows. Where r has a part
   // that no root is reached from, the bound is infinite.
   Vector<double> bound(double* r, std::size_t channels) const;
 
  private:
-  const Core& core_;
+  const surface::Core& core_;
   Vector<Index> order_, parent_;  // reached vertices, parents first; by vertex, -1: a root, -2: not reached
   Vector<double> resistance_;     // by vertex, of its edge to the parent
   Vector<double> path_;           // by component, the largest R_v
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -6,7 +6,7 @@
 #include "base/index.h"
 #include "field/spread.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 // Sources that one sweep solves together: trades passes over the factor for scratch memory of so many numbers per
@@ -30,7 +30,7 @@ constexpr double least_height = 1e-9;
 // Shares of progress of a mean distance: its sources are spread, the distances are summed, the sum is integrated.
 constexpr float progress_spread = 0.2f, progress_averaged = 0.9f;
 
-double mean_edge(const Core& core) noexcept {
+double mean_edge(const surface::Core& core) noexcept {
   double sum = 0;
   for (Index e = 0; e < core.topology().edge_count(); ++e)
     sum += norm(core.mesh.positions[at(core.topology().first(e))] - core.mesh.positions[at(core.topology().second(e))]);
@@ -39,12 +39,12 @@ double mean_edge(const Core& core) noexcept {
 
 }  // namespace
 
-Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
+Geodesics::Geodesics(std::shared_ptr<const surface::Core> core, double smoothing)
     : core_(std::move(core)), frames_(core_->memory.get()) {
-  const Core& c = *core_;
+  const surface::Core& c = *core_;
   const double h = mean_edge(c), least = least_step;
   const double step = std::max(smoothing * h * h, least * least);
-  SymmetricMatrix matrix = grounded(c);
+  SymmetricMatrix matrix = surface::grounded(c);
   // A vertex without area still needs a positive diagonal.
   const double floor = least_mass / std::max(1, c.size());
   for (std::size_t v = 0; v < at(c.size()); ++v) {
@@ -59,7 +59,7 @@ Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
 
 // Sorts the triangles by their largest row in the factor. Consecutive triangles then read heat from nearby memory.
 void Geodesics::make_frames() {
-  const Mesh& mesh = core_->mesh;
+  const mesh::Mesh& mesh = core_->mesh;
   const Span<const Index> position = heat_->position();
   const auto largest_row = [&](Index t) {
     const Index* v = mesh.triangle(t);
@@ -92,7 +92,7 @@ void Geodesics::add_directions(const double* heat, Index channels, const double*
   const DirectionSums job = {frames_.data(), heat, weights, channels, sums.data()};
   const std::int64_t count = static_cast<std::int64_t>(frames_.size());
   core_->jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
-    hf_inner::add_directions(job, p * piece, std::min(count, (p + std::int64_t{1}) * piece));
+    hf_inner::field::add_directions(job, p * piece, std::min(count, (p + std::int64_t{1}) * piece));
   });
 }
 
@@ -100,9 +100,9 @@ void Geodesics::add_directions(const double* heat, Index channels, const double*
 // product of X and n x e_i, divided by 2. Here X is the unit direction in the triangle, n its normal, and e_i its edge
 // opposite to i.
 void Geodesics::integrate(const Vector<double>& sums, double* out) const {
-  const Factor& factor = *core_->factor;  // it has the rows of the heat: one ordering
+  const factor::Factor& factor = *core_->factor;  // it has the rows of the heat: one ordering
   const Span<const Index> position = factor.position();
-  Workspace z(core_->workspaces, at(core_->size()));
+  surface::Workspace z(core_->workspaces, at(core_->size()));
   std::fill_n(z.data(), at(core_->size()), 0.0);
   for (std::size_t t = 0; t < frames_.size(); ++t) {
     const TriangleFrame& f = frames_[t];
@@ -118,13 +118,13 @@ void Geodesics::integrate(const Vector<double>& sums, double* out) const {
 }
 
 void Geodesics::distance(Span<const Index> sources, double* out) const {
-  const Core& core = *core_;
+  const surface::Core& core = *core_;
   const std::size_t n = at(core.size()), components = at(core.mesh.component_count());
   const Span<const Index> position = heat_->position();
   Vector<double> sums(2 * frames_.size(), 0.0, core.memory.get());
   const Vector<double> ones(components, 1.0, core.memory.get());
   {
-    Workspace heat(core.workspaces, n);
+    surface::Workspace heat(core.workspaces, n);
     std::fill_n(heat.data(), n, 0.0);
     for (const Index s : sources) heat[at(position[at(s)])] = 1;
     heat_->solve_in_order(heat.data(), 1, *core.jobs);
@@ -145,13 +145,13 @@ void Geodesics::distance(Span<const Index> sources, double* out) const {
 }
 
 void Geodesics::average(Index count, double* out) const {
-  const Core& core = *core_;
+  const surface::Core& core = *core_;
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size()), components = at(core.mesh.component_count());
   const SpreadSamples samples = spread_samples(core.mesh, core.topology(), core.areas, count, memory);
   report(progress_spread);
   Vector<double> sums(2 * frames_.size(), 0.0, &memory);
-  Workspace heat(core.workspaces, n * at(group_size));
+  surface::Workspace heat(core.workspaces, n * at(group_size));
   for (Index first = 0; first < count; first += group_size) {
     const Index channels = std::min(group_size, count - first);
     // Each channel has one source of heat in every component.
@@ -160,14 +160,14 @@ void Geodesics::average(Index count, double* out) const {
     for (Index k = 0; k < channels; ++k) {
       for (std::size_t c = 0; c < components; ++c) {
         const std::size_t i = c * at(count) + at(first + k);
-        if (samples.vertex[i] == Mesh::none) continue;
+        if (samples.vertex[i] == mesh::Mesh::none) continue;
         row.push_back(samples.vertex[i]);
         value.push_back(1);
         weights[c * at(channels) + at(k)] = samples.share[i];
       }
       start.push_back(static_cast<Index>(row.size()));
     }
-    Vector<std::shared_ptr<const PathGroup>> groups(&memory);
+    Vector<std::shared_ptr<const factor::PathGroup>> groups(&memory);
     heat_->solve_paths({start, row, value}, memory, *core.jobs, groups, group_of, column_of);
     std::fill_n(heat.data(), n * at(channels), 0.0);
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -186,4 +186,4 @@ void Geodesics::average(Index count, double* out) const {
   report(1.0f);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

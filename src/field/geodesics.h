@@ -15,10 +15,10 @@
 #include <memory>
 
 #include "base/progress.h"
-#include "engine/core.h"
 #include "field/directions.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 // Smoothing of the authors of the heat method: one squared mean edge. hf/analysis.h states it.
 constexpr double default_smoothing = 1;
@@ -26,7 +26,7 @@ constexpr double default_smoothing = 1;
 class Geodesics {
  public:
   // core: harmonic, with its factor. Costs one numeric factorisation.
-  Geodesics(std::shared_ptr<const Core> core, double smoothing);
+  Geodesics(std::shared_ptr<const surface::Core> core, double smoothing);
 
   // Computes the distance to the nearest source. The sources are at least one welded vertex. The unit is the box
   // diagonal. The distance is 0 at the sources, never negative, and -1 in components without a source.
@@ -36,16 +36,16 @@ class Geodesics {
   // `count` sources in each component by farthest point sampling. The weight of a source is the area nearest to it.
   void average(std::int32_t count, double* out) const;
 
-  const Core& core() const noexcept { return *core_; }
+  const surface::Core& core() const noexcept { return *core_; }
 
  private:
   void make_frames();
   void add_directions(const double* heat, std::int32_t channels, const double* weights, Vector<double>& sums) const;
   void integrate(const Vector<double>& sums, double* out) const;
 
-  std::shared_ptr<const Core> core_;
+  std::shared_ptr<const surface::Core> core_;
   Vector<TriangleFrame> frames_;  // triangles with area, in the order of their rows in the factor
-  std::shared_ptr<const Factor> heat_;
+  std::shared_ptr<const factor::Factor> heat_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

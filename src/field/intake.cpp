@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "base/arguments.h"
-#include "engine/surface_intake.h"
 #include "mesh/vertex_lists.h"
+#include "surface/surface_intake.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 // Two corrections of a preview are enough for a well-posed system.
@@ -26,23 +26,25 @@ constexpr double default_least_length = 0.05, most_least_length = 10;
 // same.
 constexpr std::uint32_t default_sources = 40, most_sources = 1000;
 
-Places read_places(const hf_sites_desc& desc) {
+mesh::Places read_places(const hf_sites_desc& desc) {
   if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
   return {desc.site_count, desc.vertices, desc.places, desc.points};
 }
 
 void check_vertex_value(double value, std::uint32_t vertex, const char* name) {
   if (!std::isfinite(value)) fail(HF_ERROR_NON_FINITE, vertex, "%s of vertex %u is not finite", name, vertex);
-  if (std::fabs(value) > largest_value)
-    fail(HF_ERROR_TOO_LARGE, vertex, "%s of vertex %u is %g; the limit is %g", name, vertex, value, largest_value);
+  if (std::fabs(value) > solve::largest_value)
+    fail(HF_ERROR_TOO_LARGE, vertex, "%s of vertex %u is %g; the limit is %g", name, vertex, value,
+         solve::largest_value);
 }
 
 }  // namespace
 
 SolverOptions read_solver_options(const hf_solver_desc& desc) {
   SolverOptions options;
-  options.field_kind = read_field_kind(desc.field_kind);
-  options.channels = static_cast<std::int32_t>(count_of(desc.channel_count, 1, 1, most_channels, "channel_count"));
+  options.field_kind = surface::read_field_kind(desc.field_kind);
+  options.channels =
+      static_cast<std::int32_t>(count_of(desc.channel_count, 1, 1, solve::most_channels, "channel_count"));
   options.site_limit = read_site_limit(desc.site_limit);
   return options;
 }
@@ -64,8 +66,8 @@ void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_d
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%u sites to move, but %u places", count, edit.move_to.count);
 }
 
-ScreeningInput read_screening(const Mesh& mesh, std::int32_t channels, const double* screening, const double* targets,
-                              Memory& memory) {
+ScreeningInput read_screening(const mesh::Mesh& mesh, std::int32_t channels, const double* screening,
+                              const double* targets, Memory& memory) {
   for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
     check_vertex_value(screening[v], v, "screening");
     if (screening[v] < 0)
@@ -77,7 +79,7 @@ ScreeningInput read_screening(const Mesh& mesh, std::int32_t channels, const dou
   }
   ScreeningInput input(memory);
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
-    const std::size_t given = given_vertex(mesh, v);
+    const std::size_t given = mesh::given_vertex(mesh, v);
     input.strength.push_back(screening[given] * mesh.scale * mesh.scale);
     for (std::size_t c = 0; targets && c < m; ++c) input.target.push_back(targets[given * m + c]);
   }
@@ -115,26 +117,26 @@ DistanceOptions read_geodesics(const hf_geodesics_desc& desc) {
   return {static_cast<DistanceMethod>(desc.method), smoothing > 0 ? smoothing : default_smoothing};
 }
 
-Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,
+Vector<std::int32_t> read_source_vertices(const mesh::Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,
                                           Memory& memory) {
-  check_vertex_count(mesh, count, "source_count");
+  mesh::check_vertex_count(mesh, count, "source_count");
   Vector<std::int32_t> inner(&memory);
-  append_usable(mesh, count, sources, "sources", inner);
+  mesh::append_usable(mesh, count, sources, "sources", inner);
   std::sort(inner.begin(), inner.end());
   inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
   return inner;
 }
 
-PointOnSurface point_on_surface(const TriangleSides& sides, const hf_place* given, const char* name,
+PointOnSurface point_on_surface(const mesh::TriangleSides& sides, const hf_place* given, const char* name,
                                 std::uint32_t index, Memory& memory) {
   require(given, name);
-  const SurfacePlace place = read_place(sides.mesh, *given, index, name);
-  GeodesicPoint point(sides, place.vertex, place.weight, memory);
+  const mesh::SurfacePlace place = mesh::read_place(sides.mesh, *given, index, name);
+  mesh::GeodesicPoint point(sides, place.vertex, place.weight, memory);
   if (!point.found()) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: its corners do not belong to one triangle", name);
   return {place, std::move(point)};
 }
 
-double read_map_radius(const Mesh& mesh, double given) {
+double read_map_radius(const mesh::Mesh& mesh, double given) {
   if (!std::isfinite(given) || given < 0)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "radius is %g; it must be 0 or above", given);
   return given / mesh.scale;
@@ -156,4 +158,4 @@ hf_extremities_desc read_extremities(hf_extremities_desc desc) {
   return desc;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -8,10 +8,10 @@
 #include "hf/solver.h"
 #include "mesh/places.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 struct SolverOptions {
-  FieldKind field_kind = FieldKind::harmonic;
+  mesh::FieldKind field_kind = mesh::FieldKind::harmonic;
   std::int32_t channels = 1;
   std::uint32_t site_limit = 0;
 };
@@ -30,8 +30,8 @@ struct ScreeningInput {
   explicit ScreeningInput(Memory& memory) : strength(&memory), target(&memory) {}
   Vector<double> strength, target;
 };
-ScreeningInput read_screening(const Mesh& mesh, std::int32_t channels, const double* screening, const double* targets,
-                              Memory& memory);
+ScreeningInput read_screening(const mesh::Mesh& mesh, std::int32_t channels, const double* screening,
+                              const double* targets, Memory& memory);
 
 // Returns the corrections of a preview. Throws HF_ERROR_INVALID_ARGUMENT.
 std::int32_t read_correction_count(std::uint32_t given);
@@ -51,21 +51,21 @@ struct DistanceOptions {
 DistanceOptions read_geodesics(const hf_geodesics_desc& desc);
 // Returns the sources of distances as inner vertices, ascending, each once. Throws HF_ERROR_TOO_LARGE,
 // HF_ERROR_OUT_OF_RANGE or HF_ERROR_INVALID_ARGUMENT (index = entry).
-Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,
+Vector<std::int32_t> read_source_vertices(const mesh::Mesh& mesh, std::uint32_t count, const std::uint32_t* sources,
                                           Memory& memory);
 
 // A point of a surface between whose corners distances are measured.
 struct PointOnSurface {
-  SurfacePlace place;
-  GeodesicPoint point;
+  mesh::SurfacePlace place;
+  mesh::GeodesicPoint point;
 };
 // index: the place of the point in the call; name: its name there. Throws HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC,
 // HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE or HF_ERROR_INVALID_ARGUMENT.
-PointOnSurface point_on_surface(const TriangleSides& sides, const hf_place* given, const char* name,
+PointOnSurface point_on_surface(const mesh::TriangleSides& sides, const hf_place* given, const char* name,
                                 std::uint32_t index, Memory& memory);
 
 // Returns the radius of a map in the inner unit. Throws HF_ERROR_INVALID_ARGUMENT.
-double read_map_radius(const Mesh& mesh, double given);
+double read_map_radius(const mesh::Mesh& mesh, double given);
 
 // The least length of extremities and proposed handles, as a share of the box diagonal. Throws
 // HF_ERROR_INVALID_ARGUMENT.
@@ -73,4 +73,4 @@ double read_least_length(double given);
 // Returns the desc with the defaults filled in. Throws HF_ERROR_INVALID_ARGUMENT.
 hf_extremities_desc read_extremities(hf_extremities_desc desc);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -8,17 +8,18 @@
 #include "base/index.h"
 #include "mesh/around_edge.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 class Tracer {
  public:
-  Tracer(const Mesh& mesh, const Topology& topology, Span<const double> field, Isolines& out, Memory& memory)
+  Tracer(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const double> field, Isolines& out,
+         Memory& memory)
       : mesh_(mesh),
         topology_(topology),
         field_(field),
         out_(out),
-        triangle_edge_(mesh.corners.size(), Mesh::none, &memory),
+        triangle_edge_(mesh.corners.size(), mesh::Mesh::none, &memory),
         usable_(at(mesh.triangle_count()), 1, &memory),
         visited_(at(mesh.triangle_count()), 0, &memory),
         line_(&memory),
@@ -48,7 +49,7 @@ class Tracer {
         for (Index i = begin(e); i < end(e); ++i) {
           const Index t = topology_.triangle(i);
           if (!usable_[at(t)] || visited_[at(t)] == stamp_) continue;
-          if (open && partner(e, i) != Mesh::none) continue;
+          if (open && partner(e, i) != mesh::Mesh::none) continue;
           follow(e, i, !open);
         }
       }
@@ -66,26 +67,26 @@ class Tracer {
   Index partner(Index e, Index i) {
     around_.clear();
     if (end(e) - begin(e) > 2) {
-      sort_around_edge(mesh_, topology_, e, around_);
+      mesh::sort_around_edge(mesh_, topology_, e, around_);
       // Pairs begin at the end with the wider gap, so they do not depend on the direction of the edge.
       const auto gap = [&](std::size_t i) { return std::fabs(around_[i + 1].angle - around_[i].angle); };
       if (gap(around_.size() - 2) > gap(0)) std::reverse(around_.begin(), around_.end());
     } else {
-      for (Index j = begin(e); j < end(e); ++j) around_.push_back({j, Mesh::none, 0, 0, 0});
+      for (Index j = begin(e); j < end(e); ++j) around_.push_back({j, mesh::Mesh::none, 0, 0, 0});
     }
-    Index before = Mesh::none;
-    for (const EdgeSide& around : around_) {
+    Index before = mesh::Mesh::none;
+    for (const mesh::EdgeSide& around : around_) {
       const Index j = around.side;
       if (!usable_[at(topology_.triangle(j))]) continue;
-      if (before == Mesh::none) {
+      if (before == mesh::Mesh::none) {
         before = j;
       } else {
         if (before == i) return j;
         if (j == i) return before;
-        before = Mesh::none;
+        before = mesh::Mesh::none;
       }
     }
-    return Mesh::none;
+    return mesh::Mesh::none;
   }
 
   Index entry_of(Index e, Index t) const noexcept {
@@ -103,9 +104,11 @@ class Tracer {
   }
 
   // Returns the vertex at which a point lies, or none.
-  static Index vertex_of(const Isolines::Point& p) noexcept { return p.t == 0 ? p.a : p.t == 1 ? p.b : Mesh::none; }
+  static Index vertex_of(const Isolines::Point& p) noexcept {
+    return p.t == 0 ? p.a : p.t == 1 ? p.b : mesh::Mesh::none;
+  }
   static bool same_place(const Isolines::Point& p, const Isolines::Point& q) noexcept {
-    return vertex_of(p) != Mesh::none && vertex_of(p) == vertex_of(q);
+    return vertex_of(p) != mesh::Mesh::none && vertex_of(p) == vertex_of(q);
   }
   void append(Index e) {
     const Isolines::Point p = point_on(e);
@@ -141,7 +144,7 @@ class Tracer {
       const Index entry = entry_of(next, t);
       e = next;
       i = partner(e, entry);
-      if (i == Mesh::none) {
+      if (i == mesh::Mesh::none) {
         append(e);
         break;
       }
@@ -155,27 +158,27 @@ class Tracer {
     out_.closed.push_back(closed);
   }
 
-  const Mesh& mesh_;
-  const Topology& topology_;
+  const mesh::Mesh& mesh_;
+  const mesh::Topology& topology_;
   const Span<const double> field_;
   Isolines& out_;
   Vector<Index> triangle_edge_;  // 3 t + k: the edge opposite to corner k
   Vector<std::uint8_t> usable_;  // every corner has a value
   Vector<std::uint32_t> visited_;
   Vector<Isolines::Point> line_;
-  Vector<EdgeSide> around_;
+  Vector<mesh::EdgeSide> around_;
   double level_ = 0;
   std::uint32_t number_ = 0, stamp_ = 0;
 };
 
 }  // namespace
 
-Vec3 position_of(const Mesh& mesh, const Isolines::Point& point) noexcept {
+Vec3 position_of(const mesh::Mesh& mesh, const Isolines::Point& point) noexcept {
   return mesh.to_given((1 - point.t) * mesh.positions[at(point.a)] + point.t * mesh.positions[at(point.b)]);
 }
 
-Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const double> field, Span<const double> levels,
-                        Memory& memory) {
+Isolines trace_isolines(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const double> field,
+                        Span<const double> levels, Memory& memory) {
   const std::size_t count = levels.size();
   for (std::size_t k = 0; k < count; ++k) {
     if (!std::isfinite(levels[k]))
@@ -223,4 +226,4 @@ Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const d
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

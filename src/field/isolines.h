@@ -13,7 +13,7 @@
 #include "base/span.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 struct Isolines {
   explicit Isolines(Memory& memory) : points(&memory), start(&memory), level(&memory), closed(&memory) {}
@@ -30,11 +30,11 @@ struct Isolines {
 };
 
 // Returns the position of a point, in the unit of the caller's mesh.
-Vec3 position_of(const Mesh& mesh, const Isolines::Point& point) noexcept;
+Vec3 position_of(const mesh::Mesh& mesh, const Isolines::Point& point) noexcept;
 
 // field: one value per welded vertex; NaN means no value, and triangles at such a vertex are left out. levels: in
 // any order. The lines come in the order of the levels. Throws HF_ERROR_NON_FINITE (index = level).
-Isolines trace_isolines(const Mesh& mesh, const Topology& topology, Span<const double> field, Span<const double> levels,
-                        Memory& memory);
+Isolines trace_isolines(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const double> field,
+                        Span<const double> levels, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 // A triangle's field values u in ascending order, its area, and its area times |grad u|.
@@ -24,7 +24,7 @@ struct Part {
 
 // Returns the triangles whose corners all have field values. The values are scaled so that the range of the field is 0
 // to 1.
-Vector<Part> parts_of(const Mesh& mesh, Span<const double> field, double& low, double& high, Memory& memory) {
+Vector<Part> parts_of(const mesh::Mesh& mesh, Span<const double> field, double& low, double& high, Memory& memory) {
   Vector<Part> parts(&memory);
   parts.reserve(at(mesh.triangle_count()));
   bool first = true;
@@ -159,7 +159,8 @@ void equal_widths(const Vector<Part>& parts, Span<double> out, Memory& memory) {
 
 }  // namespace
 
-void space_levels(const Mesh& mesh, Span<const double> field, LevelSpacing spacing, Span<double> out, Memory& memory) {
+void space_levels(const mesh::Mesh& mesh, Span<const double> field, LevelSpacing spacing, Span<double> out,
+                  Memory& memory) {
   double low = 0, high = 0;
   const Vector<Part> parts = parts_of(mesh, field, low, high, memory);
   switch (spacing) {
@@ -177,4 +178,4 @@ void space_levels(const Mesh& mesh, Span<const double> field, LevelSpacing spaci
   for (double& level : out) level = (1 - level) * low + level * high;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -15,13 +15,14 @@
 #include "base/span.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 enum class LevelSpacing : std::int32_t { value = 0, area = 1, length = 2 };
 
 // Fills `out` with ascending levels of the field. They lie strictly inside the range, except where the field is
 // constant on an area. field: NaN means no value. Throws HF_ERROR_EMPTY when no triangle has values,
 // HF_ERROR_INVALID_ARGUMENT when the field is constant.
-void space_levels(const Mesh& mesh, Span<const double> field, LevelSpacing spacing, Span<double> out, Memory& memory);
+void space_levels(const mesh::Mesh& mesh, Span<const double> field, LevelSpacing spacing, Span<double> out,
+                  Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

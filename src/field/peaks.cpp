@@ -5,9 +5,9 @@
 #include "base/index.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
-Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memory& memory) {
+Vector<Peak> find_peaks(const mesh::Topology& topology, Span<const double> field, Memory& memory) {
   const auto less = [&](Index a, Index b) {
     return field[at(a)] != field[at(b)] ? field[at(a)] < field[at(b)] : a < b;
   };
@@ -25,7 +25,7 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
   }
   Vector<Peak> peaks(&memory);
   for (std::size_t v = 0; v < n; ++v) {
-    if (basin[v] == static_cast<Index>(v)) peaks.push_back({static_cast<Index>(v), Mesh::none});
+    if (basin[v] == static_cast<Index>(v)) peaks.push_back({static_cast<Index>(v), mesh::Mesh::none});
   }
   // Finds the local maximum (peak) above each vertex. Every round at least halves the remaining path.
   for (Index changed = 1; changed != 0;) {
@@ -76,4 +76,4 @@ Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memo
   return peaks;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -10,7 +10,7 @@
 #include "base/span.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 struct Peak {
   std::int32_t vertex;  // inner
@@ -18,6 +18,6 @@ struct Peak {
 };
 
 // Returns every local maximum, by vertex. field: finite, one value per welded vertex.
-Vector<Peak> find_peaks(const Topology& topology, Span<const double> field, Memory& memory);
+Vector<Peak> find_peaks(const mesh::Topology& topology, Span<const double> field, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

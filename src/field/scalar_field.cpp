@@ -3,27 +3,27 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "engine/vertex_map.h"
+#include "surface/vertex_map.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 // Refuses counts that no valid list can have, before any list is read and before any allocation depends on them.
 void check_counts(const FieldEdit& edit, std::uint32_t there) {
-  check_site_count(edit.remove_count, there);
+  solve::check_site_count(edit.remove_count, there);
   const std::uint32_t left = there - edit.remove_count;
-  check_site_count(edit.move_count, left);
-  check_site_count(edit.set_count, left);
+  solve::check_site_count(edit.move_count, left);
+  solve::check_site_count(edit.set_count, left);
 }
 
 }  // namespace
 
-ScalarField::ScalarField(std::shared_ptr<const Core> core, std::int32_t channels, std::uint32_t site_limit,
-                         std::shared_ptr<SiteSolver> engine)
+ScalarField::ScalarField(std::shared_ptr<const surface::Core> core, std::int32_t channels, std::uint32_t site_limit,
+                         std::shared_ptr<solve::SiteSolver> engine)
     : core_(std::move(core)),
       site_limit_(site_limit),
       sites_(*core_->memory, channels),
-      engine_(engine ? std::move(engine) : SiteSolver::make(core_)) {}
+      engine_(engine ? std::move(engine) : solve::SiteSolver::make(core_)) {}
 
 ScalarField::ScalarField(const ScalarField& other)
     : core_(other.core_),
@@ -55,10 +55,10 @@ void ScalarField::prepare_rebase() {
 
 // Replaces the engine (the solver of the equations) by the one that prepare_rebase made, with the sites of an edit.
 // Returns false if there is none, or if it cannot take these sites; it then waits as it was.
-bool ScalarField::adopt(const SiteSet& next) noexcept {
+bool ScalarField::adopt(const solve::SiteSet& next) noexcept {
   if (!prepared_ || prepared_->core != core_ || prepared_->screening != screening_) return false;
   try {
-    const SiteDifference since(prepared_->sites, next, memory());
+    const solve::SiteDifference since(prepared_->sites, next, memory());
     if (!since.empty()) prepared_->engine->edit(since.edit());
   } catch (...) {
     return false;  // the present engine decides about the edit
@@ -71,13 +71,13 @@ bool ScalarField::adopt(const SiteSet& next) noexcept {
 void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   const std::lock_guard<std::mutex> lock(guard_);
   check_counts(edit, sites_.count());
-  SiteSet next(sites_, memory());
+  solve::SiteSet next(sites_, memory());
   Vector<std::uint32_t> numbers(&memory());
   next.remove(edit.remove_count, edit.remove_sites);
   next.move(*core_, edit.move_count, edit.move_sites, edit.move_to, site_limit_);
   next.set_values(edit.set_count, edit.set_sites, edit.set_values);
   next.add(*core_, edit.add, edit.add_holds, site_limit_, numbers);
-  const SiteDifference difference(sites_, next, memory());
+  const solve::SiteDifference difference(sites_, next, memory());
   if (!adopt(next) && !difference.empty()) {
     try {
       engine_->edit(difference.edit());
@@ -112,44 +112,44 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
 
 void ScalarField::set_screening(Span<const double> strength, const double* target) {
   const std::lock_guard<std::mutex> lock(guard_);
-  if (!engine_->takes_screening() || core_->field_kind != FieldKind::harmonic || core_->mesh.is_graph())
+  if (!engine_->takes_screening() || core_->field_kind != mesh::FieldKind::harmonic || core_->mesh.is_graph())
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
          "only harmonic fields on a mesh can be screened, in solvers of hf_create; make such a solver");
-  std::shared_ptr<const Screening> screening;
-  if (!strength.empty()) screening = Screening::make(core_, strength, target, sites_.channels());
-  std::shared_ptr<SiteSolver> engine =
-      screening ? make_owner_in<ScreenedSolver>(core_->memory, screening) : SiteSolver::make(core_);
+  std::shared_ptr<const solve::Screening> screening;
+  if (!strength.empty()) screening = solve::Screening::make(core_, strength, target, sites_.channels());
+  std::shared_ptr<solve::SiteSolver> engine =
+      screening ? make_owner_in<solve::ScreenedSolver>(core_->memory, screening) : solve::SiteSolver::make(core_);
   take_engine(std::move(engine));
   screening_ = std::move(screening);
 }
 
 // Replaces the engine by one without sites, which gets all of them.
-void ScalarField::take_engine(std::shared_ptr<SiteSolver> engine) {
-  const SiteDifference difference(SiteSet(memory(), sites_.channels()), sites_, memory());
+void ScalarField::take_engine(std::shared_ptr<solve::SiteSolver> engine) {
+  const solve::SiteDifference difference(solve::SiteSet(memory(), sites_.channels()), sites_, memory());
   if (!difference.empty()) engine->edit(difference.edit());
   prepared_.reset();
   engine_ = std::move(engine);
 }
 
-void ScalarField::move_to(std::shared_ptr<const Core> core) {
+void ScalarField::move_to(std::shared_ptr<const surface::Core> core) {
   const std::lock_guard<std::mutex> lock(guard_);
-  std::shared_ptr<const VertexMap> map;
+  std::shared_ptr<const surface::VertexMap> map;
   if (!core->mesh.shares(core_->mesh))
-    map = make_shared_in<VertexMap>(memory(), core_->mesh, core->mesh, memory());
-  std::shared_ptr<SiteSolver> engine = engine_->on(core, map);
+    map = make_shared_in<surface::VertexMap>(memory(), core_->mesh, core->mesh, memory());
+  std::shared_ptr<solve::SiteSolver> engine = engine_->on(core, map);
   if (!engine)
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a baseline stays on its surface; make the solver with hf_create");
-  std::shared_ptr<const Screening> screening;
+  std::shared_ptr<const solve::Screening> screening;
   if (screening_ && map)
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
          "the solver is screened, and the surface has other triangles: take the screening off, move, and set it again");
   if (screening_) {
     const Vector<double>& target = screening_->target;
     screening =
-        Screening::make(core, screening_->strength, target.empty() ? nullptr : target.data(), sites_.channels());
-    engine = make_owner_in<ScreenedSolver>(core->memory, screening);
+        solve::Screening::make(core, screening_->strength, target.empty() ? nullptr : target.data(), sites_.channels());
+    engine = make_owner_in<solve::ScreenedSolver>(core->memory, screening);
   }
-  SiteSet next(sites_, memory());
+  solve::SiteSet next(sites_, memory());
   next.take_core(*core_, *core);
   sites_.swap(next);
   try {
@@ -172,14 +172,14 @@ void ScalarField::solve(double* field) const {
   engine_->solve(sites_.values(), sites_.channels(), field, nullptr);
 }
 
-void ScalarField::solve_into(FieldSink& sink) const {
+void ScalarField::solve_into(solve::FieldSink& sink) const {
   require_sites();
   engine_->solve_into(sites_.values(), sites_.channels(), sink);
 }
 
-PreviewInfo ScalarField::solve_preview(std::int32_t corrections, double* field) const {
+solve::PreviewInfo ScalarField::solve_preview(std::int32_t corrections, double* field) const {
   require_sites();
-  PreviewInfo info;
+  solve::PreviewInfo info;
   engine_->solve_preview(sites_.values(), sites_.channels(), corrections, field, info);
   return info;
 }
@@ -206,11 +206,11 @@ void ScalarField::site_flux(Vector<double>& out) const {
     for (std::size_t c = 0; owner >= 0 && c < m; ++c) out[static_cast<std::size_t>(owner) * m + c] += out[s * m + c];
   }
   for (std::size_t s = 0; s < sites_.slots().size(); ++s) {
-    const SiteSet::Slot& slot = sites_.slots()[s];
+    const solve::SiteSet::Slot& slot = sites_.slots()[s];
     if (!slot.is_site()) continue;
     const double unit = core_->flux_unit(slot.site.component);
     for (std::size_t c = 0; c < m; ++c) out[s * m + c] = unit * out[s * m + c];
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -9,36 +9,36 @@
 #include <optional>
 
 #include "base/jobs.h"
-#include "engine/screened_solver.h"
-#include "engine/site_set.h"
+#include "solve/screened_solver.h"
+#include "solve/site_set.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 struct FieldEdit {
   std::uint32_t remove_count = 0;
   const std::uint32_t* remove_sites = nullptr;
   std::uint32_t move_count = 0;
   const std::uint32_t* move_sites = nullptr;
-  Places move_to;
+  mesh::Places move_to;
   std::uint32_t set_count = 0;
   const std::uint32_t* set_sites = nullptr;
   const double* set_values = nullptr;
-  Places add;
-  SiteSet::Holds add_holds;
+  mesh::Places add;
+  solve::SiteSet::Holds add_holds;
 };
 
 class ScalarField {
  public:
   // engine: one without sites on the same core; null: the engine of hosts.
-  ScalarField(std::shared_ptr<const Core> core, std::int32_t channels, std::uint32_t site_limit,
-              std::shared_ptr<SiteSolver> engine = nullptr);
+  ScalarField(std::shared_ptr<const surface::Core> core, std::int32_t channels, std::uint32_t site_limit,
+              std::shared_ptr<solve::SiteSolver> engine = nullptr);
   ScalarField(const ScalarField& other);  // shares the core and the immutable parts of the engine
 
   // out_sites: null, or room for add.count numbers. The numbers are written only on success.
   void edit(const FieldEdit& edit, std::uint32_t* out_sites);
   // Moves the sites to another core of the same geometry. Throws HF_ERROR_UNSUPPORTED (baselines) and what SiteSolver
   // and Screening::make throw.
-  void move_to(std::shared_ptr<const Core> core);
+  void move_to(std::shared_ptr<const surface::Core> core);
   // Screens the field: (K + A H) u = A H p + W lambda. strength: H by inner vertex; empty: no screening. target: p,
   // [vertex][channels]; null: 0. Throws HF_ERROR_UNSUPPORTED (baselines, bi-harmonic fields, graphs) and
   // what Screening::make throws.
@@ -50,20 +50,20 @@ class ScalarField {
   // SiteSolver::rebase throws.
   void prepare_rebase();
 
-  const Core& core() const noexcept { return *core_; }
-  const std::shared_ptr<const Core>& shared_core() const noexcept { return core_; }
-  const SiteSet& sites() const noexcept { return sites_; }
-  const SiteSolver& engine() const noexcept { return *engine_; }
+  const surface::Core& core() const noexcept { return *core_; }
+  const std::shared_ptr<const surface::Core>& shared_core() const noexcept { return core_; }
+  const solve::SiteSet& sites() const noexcept { return sites_; }
+  const solve::SiteSolver& engine() const noexcept { return *engine_; }
   bool is_screened() const noexcept { return screening_ != nullptr; }
-  const Screening* screening() const noexcept { return screening_.get(); }  // null: none
+  const solve::Screening* screening() const noexcept { return screening_.get(); }  // null: none
 
   // Throws HF_ERROR_EMPTY if the field has neither a site nor screening.
   void require_sites() const;
   // Solve functions; they throw HF_ERROR_EMPTY if the field has neither a site nor screening. field: welded vertex *
   // channels + c.
   void solve(double* field) const;
-  void solve_into(FieldSink& sink) const;
-  PreviewInfo solve_preview(std::int32_t corrections, double* field) const;
+  void solve_into(solve::FieldSink& sink) const;
+  solve::PreviewInfo solve_preview(std::int32_t corrections, double* field) const;
   void solve_at(Span<const std::int32_t> vertices, double* out) const;
   // Computes the flux of each site. out: slot of the site * channels + c; all 0 without sites. field: null, or receives
   // the field as solve does. Without sites it is not written.
@@ -78,23 +78,23 @@ class ScalarField {
           sites(field.sites_, *core->memory),
           engine(field.engine_->clone()),
           screening(field.screening_) {}
-    std::shared_ptr<const Core> core;
-    SiteSet sites;
-    std::shared_ptr<SiteSolver> engine;
-    std::shared_ptr<const Screening> screening;
+    std::shared_ptr<const surface::Core> core;
+    solve::SiteSet sites;
+    std::shared_ptr<solve::SiteSolver> engine;
+    std::shared_ptr<const solve::Screening> screening;
   };
-  bool adopt(const SiteSet& next) noexcept;
-  void take_engine(std::shared_ptr<SiteSolver> engine);
+  bool adopt(const solve::SiteSet& next) noexcept;
+  void take_engine(std::shared_ptr<solve::SiteSolver> engine);
   Memory& memory() const noexcept { return *core_->memory; }
 
-  std::shared_ptr<const Core> core_;
+  std::shared_ptr<const surface::Core> core_;
   std::uint32_t site_limit_;
-  SiteSet sites_;
-  std::shared_ptr<SiteSolver> engine_;
-  std::shared_ptr<const Screening> screening_;  // null: none
-  std::mutex guard_;                            // guards sites_, engine_ and prepared_ while prepare_rebase runs
+  solve::SiteSet sites_;
+  std::shared_ptr<solve::SiteSolver> engine_;
+  std::shared_ptr<const solve::Screening> screening_;  // null: none
+  std::mutex guard_;                                   // guards sites_, engine_ and prepared_ while prepare_rebase runs
   AtomicFlag preparing_{0};
   std::optional<Prepared> prepared_;  // a rebased engine and the sites it was made for
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -5,7 +5,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
 constexpr double far = std::numeric_limits<double>::infinity();
@@ -28,7 +28,7 @@ constexpr Index patch_size = 24, patches_per_sample = 16;
 
 // Grows the patch around the vertex list[begin] by two edges, over vertices without a patch, and appends them to
 // `list`.
-void grow_patch(const Topology& topology, Index patch, std::size_t begin, Vector<Index>& patch_of,
+void grow_patch(const mesh::Topology& topology, Index patch, std::size_t begin, Vector<Index>& patch_of,
                 Vector<Index>& list) {
   std::size_t ring = begin;
   for (int round = 0; round < 2; ++round) {
@@ -36,7 +36,7 @@ void grow_patch(const Topology& topology, Index patch, std::size_t begin, Vector
     for (; ring < ring_end; ++ring) {
       for (Index i = topology.neighbour_start[at(list[ring])]; i < topology.neighbour_start[at(list[ring]) + 1]; ++i) {
         const Index w = topology.neighbour[at(i)];
-        if (patch_of[at(w)] != Mesh::none) continue;
+        if (patch_of[at(w)] != mesh::Mesh::none) continue;
         patch_of[at(w)] = patch;
         list.push_back(w);
         if (list.size() - begin == at(patch_size)) return;
@@ -45,16 +45,16 @@ void grow_patch(const Topology& topology, Index patch, std::size_t begin, Vector
   }
 }
 
-Patches make_patches(const Mesh& mesh, const Topology& topology, Span<const double> areas, Index count,
+Patches make_patches(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const double> areas, Index count,
                      Memory& memory) {
   const std::size_t n = mesh.positions.size();
   Patches patches(memory);
   Vector<std::int64_t> vertices(at(mesh.component_count()), 0, &memory);
   for (std::size_t v = 0; v < n; ++v) ++vertices[at(mesh.component[v])];
-  Vector<Index> patch_of(n, Mesh::none, &memory), list(&memory), list_start(&memory);
+  Vector<Index> patch_of(n, mesh::Mesh::none, &memory), list(&memory), list_start(&memory);
   list.reserve(n);
   for (std::size_t v = 0; v < n; ++v) {
-    if (patch_of[v] != Mesh::none) continue;
+    if (patch_of[v] != mesh::Mesh::none) continue;
     const Index patch = static_cast<Index>(patches.middle.size());
     const std::size_t begin = list.size();
     patches.middle.push_back(static_cast<Index>(v));
@@ -70,7 +70,7 @@ Patches make_patches(const Mesh& mesh, const Topology& topology, Span<const doub
   }
   list_start.push_back(static_cast<Index>(n));
   // Makes two patches neighbours when an edge joins them.
-  Vector<Index> seen_by(patches.middle.size(), Mesh::none, &memory);
+  Vector<Index> seen_by(patches.middle.size(), mesh::Mesh::none, &memory);
   patches.start.push_back(0);
   for (Index p = 0; at(p) < patches.middle.size(); ++p) {
     const Vec3 middle = mesh.positions[at(patches.middle[at(p)])];
@@ -96,7 +96,7 @@ class Search {
  public:
   Search(const Patches& patches, Memory& memory)
       : distance(patches.middle.size(), far, &memory),
-        owner(patches.middle.size(), Mesh::none, &memory),
+        owner(patches.middle.size(), mesh::Mesh::none, &memory),
         patches_(patches),
         near_(&memory),
         waiting_(&memory) {
@@ -180,21 +180,21 @@ void find_outermost(const Patches& patches, Span<const Vec3> positions, std::siz
 
 }  // namespace
 
-SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, Span<const double> areas, Index count,
-                             Memory& memory) {
+SpreadSamples spread_samples(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const double> areas,
+                             Index count, Memory& memory) {
   const std::size_t components = at(mesh.component_count());
   SpreadSamples samples(memory);
   samples.count = count;
-  samples.vertex.assign(components * at(count), Mesh::none);
+  samples.vertex.assign(components * at(count), mesh::Mesh::none);
   samples.share.assign(components * at(count), 0.0);
   const Patches patches = make_patches(mesh, topology, areas, count, memory);
   Search search(patches, memory);
-  Vector<Index> farthest(components, Mesh::none, &memory);
+  Vector<Index> farthest(components, mesh::Mesh::none, &memory);
   const auto find_farthest = [&] {
-    std::fill(farthest.begin(), farthest.end(), Mesh::none);
+    std::fill(farthest.begin(), farthest.end(), mesh::Mesh::none);
     for (std::size_t p = 0; p < patches.middle.size(); ++p) {
       Index& best = farthest[at(patches.component[p])];
-      if (best == Mesh::none || search.distance[p] > search.distance[at(best)]) best = static_cast<Index>(p);
+      if (best == mesh::Mesh::none || search.distance[p] > search.distance[at(best)]) best = static_cast<Index>(p);
     }
   };
   find_outermost(patches, mesh.positions, components, farthest, memory);
@@ -219,4 +219,4 @@ SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, Span<co
   return samples;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -11,7 +11,7 @@
 #pragma once
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 struct SpreadSamples {
   explicit SpreadSamples(Memory& memory) : vertex(&memory), share(&memory) {}
@@ -20,7 +20,7 @@ struct SpreadSamples {
   Vector<double> share;         // of the component's area that is nearest to the sample; sums to 1
 };
 
-SpreadSamples spread_samples(const Mesh& mesh, const Topology& topology, Span<const double> areas,
+SpreadSamples spread_samples(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const double> areas,
                              std::int32_t count, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -1,13 +1,13 @@
 // Counts the vertices and components that no site of a field reaches.
 #pragma once
-#include "engine/geometry.h"
 #include "hf/solver.h"
+#include "surface/geometry.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 // site_count(component) returns the number of sites on a component.
 template <class Count>
-hf_solve_info unreached_by(const Geometry& shape, Count&& site_count) {
+hf_solve_info unreached_by(const surface::Geometry& shape, Count&& site_count) {
   hf_solve_info info{};
   info.first_unreached_component = HF_NO_INDEX;
   info.unreached_vertex_count = shape.mesh.report.isolated_vertex_count;
@@ -19,4 +19,4 @@ hf_solve_info unreached_by(const Geometry& shape, Count&& site_count) {
   return info;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -1,8 +1,8 @@
 #include "field/vector_field.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
-Vector<Vec3> vertex_normals(const Mesh& mesh, Memory& memory) {
+Vector<Vec3> vertex_normals(const mesh::Mesh& mesh, Memory& memory) {
   const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
   Vector<Vec3> normals(mesh.positions.size(), &memory);
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -18,7 +18,7 @@ Vector<Vec3> vertex_normals(const Mesh& mesh, Memory& memory) {
   return normals;
 }
 
-Vec3 vertex_normal(const Mesh& mesh, const Topology& topology, std::int32_t vertex) noexcept {
+Vec3 vertex_normal(const mesh::Mesh& mesh, const mesh::Topology& topology, std::int32_t vertex) noexcept {
   const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
   Vec3 sum;
   for (std::int32_t i = topology.neighbour_start[at(vertex)]; i < topology.neighbour_start[at(vertex) + 1]; ++i) {
@@ -48,4 +48,4 @@ void project_on_tangent_planes(const Vector<Vec3>& normals, double* vectors) noe
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

@@ -3,17 +3,17 @@
 #pragma once
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 // Returns the unit area-weighted normals of the welded vertices. A normal is zero where the triangles around it cancel
 // out.
-Vector<Vec3> vertex_normals(const Mesh& mesh, Memory& memory);
+Vector<Vec3> vertex_normals(const mesh::Mesh& mesh, Memory& memory);
 
 // Returns the normal of one vertex. The cost is proportional to the number of its triangles.
-Vec3 vertex_normal(const Mesh& mesh, const Topology& topology, std::int32_t vertex) noexcept;
+Vec3 vertex_normal(const mesh::Mesh& mesh, const mesh::Topology& topology, std::int32_t vertex) noexcept;
 
 // Projects vectors[v * 3 + c] in place. It projects twice, so that n . v is zero up to rounding even for vectors that
 // are nearly normal.
 void project_on_tangent_planes(const Vector<Vec3>& normals, double* vectors) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

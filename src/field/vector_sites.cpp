@@ -9,16 +9,16 @@
 #include "field/vector_field.h"
 #include "mesh/places.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 namespace {
 
-const SiteSet::Slot& vector_site(const ScalarField& field, std::uint32_t position, std::uint32_t site) {
+const solve::SiteSet::Slot& vector_site(const ScalarField& field, std::uint32_t position, std::uint32_t site) {
   field.sites().check_site(position, site);
   return field.sites().slots()[site];
 }
 
 // Returns the vertex of a site. For a point in a triangle it returns the corner of largest weight.
-std::int32_t vertex_of(const Site& site) noexcept {
+std::int32_t vertex_of(const solve::Site& site) noexcept {
   int best = 0;
   for (int k = 1; k < 3; ++k) best = site.vertex[k] >= 0 && site.weight[k] > site.weight[best] ? k : best;
   return site.vertex[best];
@@ -38,7 +38,7 @@ Vec3 turned(Vec3 v, Vec3 axis, double angle) noexcept {
 }  // namespace
 
 void require_vectors(const ScalarField& field) {
-  require_triangles(field.core().mesh, "the normals of a vector field");
+  mesh::require_triangles(field.core().mesh, "the normals of a vector field");
   if (field.sites().channels() != 3)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "the solver has %d channels; vector fields need channel_count 3",
          field.sites().channels());
@@ -46,15 +46,15 @@ void require_vectors(const ScalarField& field) {
 
 void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const std::uint32_t* vertices) {
   require_vectors(field);
-  check_site_count(count, field.sites().count());
-  const Core& core = field.core();
-  const Geometry& surface = core.geometry->unlinked();  // vectors are carried along triangles
-  const Mesh& mesh = surface.mesh;
+  solve::check_site_count(count, field.sites().count());
+  const surface::Core& core = field.core();
+  const surface::Geometry& surface = core.geometry->unlinked();  // vectors are carried along triangles
+  const mesh::Mesh& mesh = surface.mesh;
   Vector<double> values(field.core().memory.get());
   for (std::uint32_t i = 0; i < count; ++i) {
-    const SiteSet::Slot& slot = vector_site(field, i, sites[i]);
+    const solve::SiteSet::Slot& slot = vector_site(field, i, sites[i]);
     std::int32_t here = vertex_of(slot.site);
-    const std::int32_t to = usable_vertex(mesh, vertices[i], i);
+    const std::int32_t to = mesh::usable_vertex(mesh, vertices[i], i);
     if (mesh.component[at(to)] != mesh.component[at(here)])
       fail(HF_ERROR_INVALID_ARGUMENT, i,
            "entry %u of the list: vertex %u lies in another component than site %u; remove it there and add it here", i,
@@ -82,11 +82,11 @@ void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* 
 
 void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const double* angles) {
   require_vectors(field);
-  check_site_count(count, field.sites().count());
-  const Core& core = field.core();
+  solve::check_site_count(count, field.sites().count());
+  const surface::Core& core = field.core();
   Vector<double> values(field.core().memory.get());
   for (std::uint32_t i = 0; i < count; ++i) {
-    const SiteSet::Slot& slot = vector_site(field, i, sites[i]);
+    const solve::SiteSet::Slot& slot = vector_site(field, i, sites[i]);
     check_angle(i, angles[i]);
     const Vec3 normal = vertex_normal(core.mesh, core.topology(), vertex_of(slot.site));
     const Vec3 vector = turned(value_of(field, sites[i]), normal, norm(normal) > 0 ? angles[i] : 0.0);
@@ -99,4 +99,4 @@ void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t
   field.edit(edit, nullptr);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

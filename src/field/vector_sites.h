@@ -3,7 +3,7 @@
 #pragma once
 #include "field/scalar_field.h"
 
-namespace hf_inner {
+namespace hf_inner::field {
 
 // Throws HF_ERROR_INVALID_ARGUMENT for a field of other than 3 channels, HF_ERROR_UNSUPPORTED on a graph.
 void require_vectors(const ScalarField& field);
@@ -17,4 +17,4 @@ void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* 
 // Turns the vectors about their vertex normals by angles in radians. Throws HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE.
 void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* sites, const double* angles);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::field

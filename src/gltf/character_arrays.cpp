@@ -9,7 +9,7 @@
 namespace hf_gltf {
 namespace {
 
-using hf_inner::Role;
+using hf_inner::skeleton::Role;
 
 // A file may hold hundreds of clips; the first ones tell enough.
 constexpr size_t most_clips = 100;
@@ -148,7 +148,7 @@ void CharacterArrays::add_declared(const Model& model) {
 
 void CharacterArrays::add_said(const Model& model) {
   for (const SaidJoint& joint : model.said) {
-    for (std::int32_t r = 0; r < hf_inner::role_count; ++r)
+    for (std::int32_t r = 0; r < hf_inner::skeleton::role_count; ++r)
       if (joint.part == role_name(static_cast<Role>(r))) roles[static_cast<size_t>(joint.node)] = r;
     sides[static_cast<size_t>(joint.node)] = joint.side;
     declared = true;

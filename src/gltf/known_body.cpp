@@ -148,7 +148,7 @@ KnownBody know_body(const Model& model, const FlatMesh& mesh, const Axes* given,
   KnownBody out;
   if (model.nodes.empty()) return out;
   const CharacterArrays arrays(model, mesh, pose ? *pose : rest_pose(model));
-  auto input = arrays.input<hf_inner::CharacterInput>();
+  auto input = arrays.input<hf_inner::skeleton::CharacterInput>();
   if (given) {
     input.up = &given->up.x;
     input.forward = &given->forward.x;

@@ -11,7 +11,7 @@
 namespace hf_gltf {
 namespace {
 
-using hf_inner::Role;
+using hf_inner::skeleton::Role;
 
 // Parts that come in two, one on each side of the body.
 bool has_sides(Role role) {
@@ -32,7 +32,7 @@ bool read_name(NamedChain& chain) {
   if (chain.side != 0) words >> word;
   if (words >> number && number.find_first_not_of("0123456789") != std::string::npos) return false;
   if (words >> more) return false;
-  for (std::int32_t r = 0; r < hf_inner::role_count; ++r) {
+  for (std::int32_t r = 0; r < hf_inner::skeleton::role_count; ++r) {
     if (word != role_name(static_cast<Role>(r))) continue;
     chain.part = word;
     const Role role = static_cast<Role>(r);

@@ -14,11 +14,11 @@
 
 namespace hf_gltf {
 
-using hf_inner::Chain;
-using hf_inner::Character;
-using hf_inner::CharacterInput;
-using hf_inner::Role;
-using hf_inner::Side;
+using hf_inner::skeleton::Chain;
+using hf_inner::skeleton::Character;
+using hf_inner::skeleton::CharacterInput;
+using hf_inner::skeleton::Role;
+using hf_inner::skeleton::Side;
 
 // From here on the skeleton decides. Below, it is a guess.
 inline constexpr double enough = 0.5;
@@ -64,7 +64,7 @@ struct SkeletonBody {
   std::string doubt;  // why it is not understood
 
   SkeletonBody(const JointSide& given, hf_inner::Memory& memory);
-  hf_inner::RetargetSide retarget_side() const { return {input, *character, nullptr}; }
+  hf_inner::retarget::RetargetSide retarget_side() const { return {input, *character, nullptr}; }
   Pose rest_of() const { return rest_of(side); }
   static Pose rest_of(const JointSide& side) { return side.rest ? *side.rest : rest_pose(side.model); }
 

@@ -75,7 +75,8 @@ namespace {
 
 Riders riders_of(const SkeletonBody& body) {
   std::vector<uint8_t> moves;
-  for (const hf_inner::JointKind kind : body.character->kinds) moves.push_back(kind != hf_inner::JointKind::helper);
+  for (const hf_inner::skeleton::JointKind kind : body.character->kinds)
+    moves.push_back(kind != hf_inner::skeleton::JointKind::helper);
   return find_riders(body.side.model, body.side.mesh, body.rest_of(), moves);
 }
 
@@ -235,7 +236,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
   std::vector<double> poses;
   for (const Pose& pose : out.source) append_trs(pose, poses);
 
-  hf_inner::RetargetOptions chosen;
+  hf_inner::retarget::RetargetOptions chosen;
   chosen.goals = options.ground;
   chosen.foot_path = out.foot_path = options.foot_path;
   chosen.copy_same = options.scale == 0 && options.stride == 1;
@@ -245,10 +246,10 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
                          memory);
   chosen.scale = options.scale;
   if (options.stride != 1) {
-    const hf_inner::Retarget found(source.retarget_side(), target.retarget_side(), chosen, memory);
+    const hf_inner::retarget::Retarget found(source.retarget_side(), target.retarget_side(), chosen, memory);
     chosen.scale = options.stride * found.report().scale;
   }
-  hf_inner::Retarget retarget(source.retarget_side(), target.retarget_side(), chosen, memory);
+  hf_inner::retarget::Retarget retarget(source.retarget_side(), target.retarget_side(), chosen, memory);
   const size_t count = source.side.model.nodes.size();
   const Pose rest = target.rest_of();
   std::vector<double> trs(10 * rest.size());
@@ -273,7 +274,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
     out.target.push_back(pose_of(rest, trs));
     place_riders(target.side.model, riders, out.target.back());
   }
-  const hf_inner::RetargetReport& report = retarget.report();
+  const hf_inner::retarget::RetargetReport& report = retarget.report();
   out.same = report.same_skeleton;
   out.scale = report.scale;
   out.scale_from = report.same_skeleton ? "the same skeleton" : scale_source_name(report.scale_source);

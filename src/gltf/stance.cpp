@@ -36,7 +36,7 @@ std::ptrdiff_t lifted_legs(const Character& c) {
 }
 
 // Returns whether a body faces its declared direction, as far as its shape shows where it faces.
-bool faces_as_said(hf_inner::CharacterInput input, hf_inner::Memory& memory) {
+bool faces_as_said(hf_inner::skeleton::CharacterInput input, hf_inner::Memory& memory) {
   // The cosine of 45 degrees: farther off, another axis of the body is nearer. Half, 70 degrees, would accept a pose
   // that a clip turns aside. A cosine near 1 would refuse a body that a clip turns by a few degrees.
   constexpr double near = 0.7;
@@ -49,7 +49,7 @@ bool faces_as_said(hf_inner::CharacterInput input, hf_inner::Memory& memory) {
 // of_file: the pose is the pose of the file. Given axes and declarations of the file hold in that pose.
 Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const Axes* axes, bool of_file) {
   const CharacterArrays arrays(model, mesh, pose);
-  auto input = arrays.input<hf_inner::CharacterInput>();
+  auto input = arrays.input<hf_inner::skeleton::CharacterInput>();
   if (axes) {
     input.up = &axes->up.x;
     input.forward = &axes->forward.x;

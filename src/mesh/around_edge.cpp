@@ -5,7 +5,7 @@
 
 #include "base/elementary.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Angles that differ by less than this are one. It is above their rounding, which is 1e-16. Needles have more. More
@@ -73,4 +73,4 @@ void sort_around_edge(const Mesh& mesh, const Topology& topology, Index edge, Ve
   if (!up) std::reverse(sides.begin(), sides.end());
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -3,7 +3,7 @@
 #include "base/index.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // A side of a triangle on an edge of three triangles and more.
 struct EdgeSide {
@@ -18,4 +18,4 @@ struct EdgeSide {
 // must not decide which comes first: that with the lower apex, along the edge in one of its directions.
 void sort_around_edge(const Mesh& mesh, const Topology& topology, Index edge, Vector<EdgeSide>& sides);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Number of matrix columns that one thread's job takes. Half and twice the value take the same time within 10 %, the
@@ -269,4 +269,4 @@ Vector<double> biharmonic_diagonal(const SymmetricMatrix& laplacian, const Vecto
   return diagonal;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

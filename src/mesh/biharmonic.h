@@ -11,12 +11,12 @@
 // times a constant is zero up to rounding. K is symmetric bit for bit. Cost: O(sum of squared valences), in parallel.
 //
 // A vertex with d neighbours gives K a dense block of d x d entries. So K is not formed where a vertex has very many of
-// them. It is then applied as two products with L, and engine/mixed_solver.h solves with L alone.
+// them. It is then applied as two products with L, and solve/mixed_solver.h solves with L alone.
 #pragma once
 #include "base/symmetric_matrix.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Returns 1 / m for every vertex, with the masses m from the vertex areas, scaled to mean 1 in every component. Each
 // mass is at least a ten-thousandth of that mean. Otherwise a vertex of zero-area triangles would dominate its
@@ -47,4 +47,4 @@ void apply_laplacian(const SymmetricMatrix& laplacian, const Vector<double>& sca
 Vector<double> biharmonic_diagonal(const SymmetricMatrix& laplacian, const Vector<double>& inverse_mass,
                                    Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -2,7 +2,7 @@
 
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Items of a leaf. It trades tests of boxes for tests of items; no result depends on it. 2 and 8 take up to a tenth
@@ -128,4 +128,4 @@ double crossing(const Vec3& from, const Vec3& way, const Vec3& a, const Vec3& b,
   return t >= 0 && t <= 1 ? t : -1;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

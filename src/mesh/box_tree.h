@@ -11,7 +11,7 @@
 #include "base/span.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 struct ItemBox {
   Vec3 low, high;
@@ -150,4 +150,4 @@ inline Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) noex
 double crossing(const Vec3& from, const Vec3& way, const Vec3& a, const Vec3& b, const Vec3& c,
                 bool& entering) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -7,7 +7,7 @@
 #include "mesh/link_constants.h"
 #include "mesh/nearest_triangle.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 Vector<Index> pieces_of_triangles(const Mesh& mesh, Memory& memory) {
@@ -240,4 +240,4 @@ void ContactSearch::improve(Index from, Index to, double range, Vector<Contact>&
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -9,7 +9,7 @@
 #include "mesh/links.h"
 #include "mesh/piece_tree.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 struct Contact {
   Index vertex, triangle;
@@ -84,4 +84,4 @@ class ContactSearch {
   std::optional<JointTree> tree_of_joints_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

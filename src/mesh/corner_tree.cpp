@@ -1,6 +1,6 @@
 #include "mesh/corner_tree.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // A share of the largest coordinate, more than the 1e-16 by which rounding moves a place. A wider margin looks at more
@@ -75,4 +75,4 @@ CornerTree::Triangle::Triangle(Place a, Place b, Place c, double margin) noexcep
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

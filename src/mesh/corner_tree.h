@@ -13,7 +13,7 @@
 #include "base/span.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 class CornerTree {
  public:
@@ -94,4 +94,4 @@ class CornerTree {
   double margin_ = 0;  // more than rounding moves a corner
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -8,7 +8,7 @@
 #include "mesh/places.h"
 #include "mesh/vertex_fan.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 struct Edge : CutEdge {  // of inner vertices
@@ -83,4 +83,4 @@ Vector<Mesh::CutCorner> cut_edges(const Mesh& mesh, Span<const std::uint32_t> ed
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -6,7 +6,7 @@
 #pragma once
 #include "mesh/mesh_patch.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // edges: two vertices of the caller each. Returns the corners that take copies, by copy. Copies are numbered from
 // mesh.report.vertex_count on, by the vertices that they copy. Throws HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT
@@ -14,4 +14,4 @@ namespace hf_inner {
 // std::bad_alloc. Cost: a pass over the triangles.
 Vector<Mesh::CutCorner> cut_edges(const Mesh& mesh, Span<const std::uint32_t> edges, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

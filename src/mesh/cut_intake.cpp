@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "mesh/place_reader.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // The narrowest new triangle has this share of the old one's height, so angles stay within a factor of about 20. Half
@@ -59,4 +59,4 @@ Vector<CurvePoint> read_cut_points(const hf_cut_desc& desc, const Mesh& mesh, co
   return points;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -3,7 +3,7 @@
 #include "hf/surface.h"
 #include "mesh/cut_line.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Returns the options with the defaults filled in. Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
 // HF_ERROR_INVALID_DESC.
@@ -12,4 +12,4 @@ CutOptions read_cut_options(const hf_cut_desc& desc);
 // Returns the points of the line. Throws as hf_surface_trace_cut documents.
 Vector<CurvePoint> read_cut_points(const hf_cut_desc& desc, const Mesh& mesh, const Topology& topology, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Moves a point near edges onto them: weights below the share become 0, except the largest one.
@@ -135,4 +135,4 @@ CutLine cut_line(const Mesh& mesh, const Topology& topology, Span<const CurvePoi
   return line;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

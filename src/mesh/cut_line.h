@@ -6,12 +6,13 @@
 #include "mesh/surface_curve.h"
 #include "mesh/triangle_division.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // A point of a line: a vertex, else a point on an edge, else a point in a triangle. The other two are Mesh::none.
 struct LinePoint {
   std::int32_t vertex = Mesh::none, edge = Mesh::none, triangle = Mesh::none;
-  GridPoint in{0, 0};        // on an edge, `a` is the weight of its second vertex; in a triangle, `a` and `b` are of its corners
+  GridPoint in{0,
+               0};  // on an edge, `a` is the weight of its second vertex; in a triangle, `a` and `b` are of its corners
   std::int32_t segment = 0;  // the given point whose path it begins or lies on
   bool given = false;        // one of the given points
 };
@@ -40,4 +41,4 @@ struct CutOptions {
 CutLine cut_line(const Mesh& mesh, const Topology& topology, Span<const CurvePoint> points, const CutOptions& options,
                  Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

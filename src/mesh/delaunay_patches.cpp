@@ -7,7 +7,7 @@
 #include "mesh/laplacian.h"
 #include "mesh/mollify.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Number of triangles or edges that one thread's job takes. Half and twice the value take the same time within 10 %,
@@ -391,4 +391,4 @@ DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, c
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -14,7 +14,7 @@
 #pragma once
 #include "mesh/intrinsic.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 struct DelaunayOperator {
   explicit DelaunayOperator(Memory& memory) : laplacian(memory), areas(&memory), changed(&memory) {}
@@ -29,4 +29,4 @@ struct DelaunayOperator {
 DelaunayOperator delaunay_operator(const Mesh& mesh, const Topology& topology, const Vector<double>& weights,
                                    bool with_areas, Memory& memory, JobRunner* jobs = nullptr);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

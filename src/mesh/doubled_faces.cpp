@@ -7,7 +7,7 @@
 #include "mesh/kept_faces.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Odd number that mixes corners into a hash: 2^64 over the golden ratio. No result depends on it.
@@ -341,4 +341,4 @@ void turn_two_sided(const MeshInput& input, Mesh& mesh, Memory& memory, JobRunne
   find_turned(input, mesh, memory);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -7,7 +7,7 @@
 #include "base/jobs.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Moves doubled faces from the mesh to Mesh::doubled and counts them in the report. The corners can be numbers of any
 // kind below `vertex_count`. Cost: O(corners log corners) in the worst case, for a fan of triangles.
@@ -17,4 +17,4 @@ void set_doubled_aside(Mesh& mesh, std::size_t vertex_count, Memory& memory);
 // order. Fills Mesh::turned. The mesh has its inner numbers.
 void turn_two_sided(const MeshInput& input, Mesh& mesh, Memory& memory, JobRunner* jobs);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -6,7 +6,7 @@
 #include "base/index.h"
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 EdgePaths::EdgePaths(const Mesh& mesh, const Topology& topology, Memory& memory)
     : mesh_(mesh),
@@ -50,4 +50,4 @@ double EdgePaths::append(Index from, Index to, Vector<Index>& out) {
   return length;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

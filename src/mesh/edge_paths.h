@@ -3,7 +3,7 @@
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // All paths share the same arrays. A path costs O(d log d) for the d vertices nearer than its end.
 class EdgePaths {
@@ -32,4 +32,4 @@ class EdgePaths {
   Vector<Reached> heap_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

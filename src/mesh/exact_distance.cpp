@@ -10,7 +10,7 @@
 #include "base/progress.h"
 #include "mesh/shortest_on_edges.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -735,4 +735,4 @@ ExactDistance exact_distance(const TriangleSides& sides, const ExactTask& task, 
   return Propagation(sides, task, memory).run();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -20,7 +20,7 @@
 #include "base/span.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // The tables that all calls on one mesh share. Side 3 t + k runs from corner k of triangle t to its next corner.
 struct TriangleSides {
@@ -118,4 +118,4 @@ inline ExactDistance exact_distance(const TriangleSides& sides, Span<const std::
   return exact_distance(sides, task, memory);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "mesh/edge_paths.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // A pseudo-source is found where a corner lies within this share of the path from the place that unfolding gives. A
@@ -258,4 +258,4 @@ SurfacePath shortest_path(const TriangleSides& sides, const GeodesicPoint& from,
   return path;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -2,7 +2,7 @@
 #pragma once
 #include "mesh/exact_distance.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // A corner of a path. It lies at (1 - t) a + t b on the edge between the vertices a and b. At a vertex a is b. The ends
 // of a path inside a triangle have a = b = Mesh::none.
@@ -32,4 +32,4 @@ struct SurfacePath {
 SurfacePath shortest_path(const TriangleSides& sides, const GeodesicPoint& from, const GeodesicPoint& to,
                           Memory& memory, double at_most = 0);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

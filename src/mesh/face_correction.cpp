@@ -8,7 +8,7 @@
 #include "mesh/laplacian.h"
 #include "mesh/polygon_laplacian.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // The largest part of the polygon Laplacian. On squares its hourglass energy is 1/2 of the cut's, and 2/3 cancels the
@@ -296,4 +296,4 @@ SymmetricMatrix corrected_by_polygons(const Mesh& mesh, const SymmetricMatrix& l
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -10,7 +10,7 @@
 #include "base/symmetric_matrix.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // laplacian: D, without positive entries off its diagonal. The result is the same for any number of threads.
 SymmetricMatrix corrected_by_polygons(const Mesh& mesh, const SymmetricMatrix& laplacian, Memory& memory,
@@ -20,4 +20,4 @@ SymmetricMatrix corrected_by_polygons(const Mesh& mesh, const SymmetricMatrix& l
 // that diagonal is not Delaunay.
 void quad_weights(const Vec3 corners[4], double weights[6]) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

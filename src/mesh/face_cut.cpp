@@ -5,7 +5,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 constexpr double no_ear = std::numeric_limits<double>::max(), cut_off = std::numeric_limits<double>::infinity();
@@ -243,4 +243,4 @@ void FaceCutter::cut_ears() {
   add(ears_[at(last)].before, last, ears_[at(last)].after);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -7,7 +7,7 @@
 #include "mesh/corner_tree.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 class FaceCutter {
  public:
@@ -75,4 +75,4 @@ class FaceCutter {
   double square_ = 0;  // its squared length
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "mesh/face_cut.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Most corners of one face. Cutting takes up to the square of them; a larger face is a mistake of the host.
@@ -173,4 +173,4 @@ void count_face_sides(const Faces& faces, const Topology& topology, MeshReport& 
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -3,7 +3,7 @@
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Returns the number of triangles that the faces are cut into, before anything is allocated. Throws
 // HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (fewer than three corners), HF_ERROR_TOO_LARGE (index = face).
@@ -26,4 +26,4 @@ Vector<std::uint8_t> face_sides(const Faces& faces, const Topology& topology, Me
 // Counts boundary, non-manifold and flipped sides of faces in the report, as count_edges does for triangles.
 void count_face_sides(const Faces& faces, const Topology& topology, MeshReport& report, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -7,7 +7,7 @@
 #include "mesh/face_intake.h"
 #include "mesh/polygon_laplacian.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // The same mesh with the other cut of every quad that has one, as far as an operator reads it.
@@ -101,4 +101,4 @@ DelaunayOperator face_operator(const Mesh& mesh, const Topology& topology, const
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

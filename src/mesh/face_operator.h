@@ -11,7 +11,7 @@
 #include "mesh/delaunay_patches.h"
 #include "mesh/laplacian.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Makes the Laplacian of a mesh with faces. weights: cotangent weights by edge of the cut. `areas` of the result is
 // empty for kinds other than intrinsic_delaunay. Throws std::bad_alloc. The result is the same for any number of
@@ -19,4 +19,4 @@ namespace hf_inner {
 DelaunayOperator face_operator(const Mesh& mesh, const Topology& topology, const Vector<double>& weights,
                                OperatorKind kind, bool with_areas, Memory& memory, JobRunner* jobs = nullptr);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

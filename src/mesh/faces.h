@@ -8,7 +8,7 @@
 #include "base/shared_vector.h"
 #include "base/span.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // The caller's faces. Face f has `size` corners from corner `start` on. Starts and sizes come from one array of sizes
 // (the faces follow one another), from one of starts (n + 1 offsets), or from one of each.
@@ -69,4 +69,4 @@ struct Faces {
   std::uint32_t largest_size = 0;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -8,7 +8,7 @@
 #include "mesh/intrinsic.h"
 #include "mesh/unfold.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // A vertex is visited again if its distance falls by at least this share. The number exceeds rounding errors, which
@@ -128,4 +128,4 @@ class FrontDistance::Fronts {
 
 void FrontDistance::distance(Span<const Index> sources, double* out) const { Fronts(*this, sources, out).run(); }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -12,7 +12,7 @@
 #include "base/span.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 class FrontDistance {
  public:
@@ -36,4 +36,4 @@ class FrontDistance {
   Vector<Corner> corner_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -8,7 +8,7 @@
 #include "base/index.h"
 #include "mesh/unfold.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // A vertex of a geodesic disc may lie this far beyond its radius, in mean edge lengths. It makes discs of one radius
@@ -121,4 +121,4 @@ Vector<DiscVertex> geodesic_disc(const Mesh& mesh, const Topology& topology, con
   return disc;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -10,7 +10,7 @@
 
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 struct DiscVertex {
   std::int32_t vertex;
@@ -25,4 +25,4 @@ struct DiscVertex {
 Vector<DiscVertex> geodesic_disc(const Mesh& mesh, const Topology& topology, const std::int32_t vertex[3],
                                  const double weight[3], double radius, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

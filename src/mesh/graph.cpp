@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "mesh/laplacian.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Weights and masses may be at most this large. Squares and sums of larger ones could overflow.
@@ -219,4 +219,4 @@ WeightedGraph WeightedGraph::make(const GraphInput& input, Memory& memory) {
   return graph;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -10,7 +10,7 @@
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 struct GraphInput {
   std::uint32_t vertex_count = 0;
@@ -40,4 +40,4 @@ struct WeightedGraph {
   Vector<std::uint8_t> limited;  // by inner vertex: 1 where a weight was too far from the median to be kept
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -10,7 +10,7 @@
 #include "mesh/laplacian.h"
 #include "mesh/mollify.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Number of triangles or edges that one thread's job takes. Half and twice the value take the same time within 10 %,
@@ -392,4 +392,4 @@ SymmetricMatrix IntrinsicTriangulation::laplacian(Index vertex_count, Memory& me
   return matrix;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -23,7 +23,7 @@
 #include "base/symmetric_matrix.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Sums of cotangents above minus this number count as zero. Otherwise rounding could flip co-circular pairs of
 // triangles for ever. More leaves edges that should flip. Half and double change no bit on eight shapes with needles,
@@ -98,4 +98,4 @@ class IntrinsicTriangulation {
   std::uint32_t mollified_ = 0;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

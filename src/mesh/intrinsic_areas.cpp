@@ -9,7 +9,7 @@
 #include "base/hypotenuse.h"
 #include "mesh/intrinsic.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // A sum of cotangents that divides counts as at least this, so that a flat face does not divide by zero.
@@ -66,4 +66,4 @@ Vector<double> IntrinsicTriangulation::vertex_areas(const Mesh& mesh, const Topo
   return areas;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

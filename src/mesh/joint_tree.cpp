@@ -4,7 +4,7 @@
 
 #include "hf/base.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 JointTree::JointTree(Span<const std::uint32_t> parents, Span<const std::uint8_t> owns, Memory& memory)
     : above_(parents.size() + 1, 0, &memory),
@@ -53,4 +53,4 @@ std::uint32_t joint_in_circle(Span<const std::uint32_t> parents, Memory& memory)
   return HF_NO_INDEX;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

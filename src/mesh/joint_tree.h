@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/span.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 class JointTree {
  public:
@@ -29,4 +29,4 @@ class JointTree {
 // Returns a joint on a circle of parents, or HF_NO_INDEX.
 std::uint32_t joint_in_circle(Span<const std::uint32_t> parents, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -1,6 +1,6 @@
 #include "mesh/kept_faces.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 Vector<Index> kept_numbers(const Vector<std::uint8_t>& kept, const Mesh& mesh, Memory& memory) {
   Vector<Index> number(kept.size(), Mesh::none, &memory);
@@ -50,4 +50,4 @@ void keep_faces(const Vector<std::uint8_t>& kept_face, Mesh& mesh) {
   faces.corner_start[kept] = static_cast<Index>(corner);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -5,7 +5,7 @@
 #include "base/index.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // The faces of a mesh: its triangles where the caller gave triangles.
 inline Index face_count(const Mesh& mesh) noexcept {
@@ -28,4 +28,4 @@ Vector<Index> kept_numbers(const Vector<std::uint8_t>& kept, const Mesh& mesh, M
 // and the report stay as they are.
 void keep_faces(const Vector<std::uint8_t>& kept, Mesh& mesh);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

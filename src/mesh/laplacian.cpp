@@ -5,7 +5,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Number of triangles or edges that one thread's job takes. Half and twice the value take the same time within 10 %,
@@ -251,4 +251,4 @@ void confine_weights(SymmetricMatrix& matrix, Span<const Index> component, const
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -9,7 +9,7 @@
 #include "base/symmetric_matrix.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // graph: the weights of the caller (graph.h).
 enum class OperatorKind : std::int32_t { intrinsic_delaunay = 0, clamped = 1, uniform = 2, cotangent = 3, graph = 4 };
@@ -56,12 +56,12 @@ void tie_weakly(SymmetricMatrix& matrix, double share, Memory& memory);
 // digits than a double has, such as needle triangles with weights of 1e34 beside weights of 1. K times ones stays 0.
 // Fields there follow the edge graph more than the lengths, but stay within their site values. component: by vertex.
 // confined: by component, 1 to limit its weights.
-void confine_weights(SymmetricMatrix& matrix, Span<const std::int32_t> component,
-                     const Vector<std::uint8_t>& confined, double spread, Memory& memory);
+void confine_weights(SymmetricMatrix& matrix, Span<const std::int32_t> component, const Vector<std::uint8_t>& confined,
+                     double spread, Memory& memory);
 
 // Returns the symmetric matrix K with K_ij = -w_ij and K_ii = sum_j w_ij. Each row sums to zero up to the rounding of
 // K_ii.
 SymmetricMatrix laplacian(const Topology& topology, const Vector<double>& weights, Memory& memory,
                           JobRunner* jobs = nullptr);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "mesh/kept_faces.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // A face lies on a line if no corner is farther from it than this share of its length. Without such a face a path is
@@ -228,4 +228,4 @@ void leave_line_faces_out(const MeshInput& input, Mesh& mesh, Memory& memory, Jo
   keep_faces(kept, mesh);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

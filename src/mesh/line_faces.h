@@ -8,10 +8,10 @@
 #include "base/jobs.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Removes these faces from the mesh and counts them as collapsed. The mesh has the caller's vertex numbers, its frame,
 // and no doubled faces. Cost: a pass over all triangles, in parallel; O(k log k) for k faces on a line.
 void leave_line_faces_out(const MeshInput& input, Mesh& mesh, Memory& memory, JobRunner* jobs);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -8,7 +8,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Joints per vertex of a given skin, as the headers state: refuses a count of another thing, such as all joints.
 constexpr std::uint32_t most_skin_joints = 64;
@@ -105,4 +105,4 @@ constexpr double light_share = 1e-3;
 // a model of 156 vertices opens by .6 instead of .4.
 constexpr double spring_edge = 0.01;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -7,7 +7,7 @@
 #include "mesh/link_constants.h"
 #include "mesh/vertex_lists.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Barycentrics are scaled to sum 1 if they are this near to it. Less refuses sums of rounded decimals, more takes wrong
@@ -142,4 +142,4 @@ void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out) {
   options.list = out.list;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -3,7 +3,7 @@
 #include "hf/surface.h"
 #include "mesh/links.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // The links of a desc as the mesh room takes them. `options` refers to the lists.
 struct LinksIn {
@@ -20,4 +20,4 @@ struct LinksIn {
 void read_link_list(std::uint32_t count, const hf_link* links, const Mesh& mesh, Vector<Link>& out);
 void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -10,7 +10,7 @@
 #include "mesh/link_constants.h"
 #include "mesh/union_find.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
@@ -515,4 +515,4 @@ void search_links(const Mesh& mesh, Span<const double> areas, const LinkOptions&
   LinkSearch(mesh, areas, options, memory, jobs, out).run();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -7,7 +7,7 @@
 #pragma once
 #include "mesh/links.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // More pieces than these are refused: every pair of boxes that are near costs a search. Half would refuse a tree of
 // 20,000 loose leaves; double lets a mistake run longer. links_test reaches it with single triangles.
@@ -17,4 +17,4 @@ constexpr Index most_linked_pieces = 20000;
 void search_links(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, Memory& memory,
                   JobRunner* jobs, Links& out);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

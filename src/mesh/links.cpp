@@ -9,7 +9,7 @@
 #include "mesh/link_search.h"
 #include "mesh/union_find.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // The edge weight between two equilateral triangles, cot 60 degrees.
@@ -266,4 +266,4 @@ GapSummary summarise_gaps(Span<double> gaps) {
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

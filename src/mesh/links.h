@@ -18,7 +18,7 @@
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 enum class LinkMode : std::int32_t { none = 0, pieces = 1, list = 2 };
 
@@ -108,4 +108,4 @@ GapSummary summarise_gaps(Span<double> gaps);
 // the unit of the mesh. Throws HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE (index = vertex as given).
 void measure_gaps(const Mesh& mesh, Span<const Link> links, const ConstRows& posed, Span<double> gaps);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

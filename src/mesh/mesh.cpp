@@ -17,7 +17,7 @@
 #include "mesh/vertex_order.h"
 #include "mesh/weld.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 namespace {
 
@@ -282,4 +282,4 @@ Mesh Mesh::make(const MeshInput& input, Memory& memory, JobRunner* jobs) {
   return mesh;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

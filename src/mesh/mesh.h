@@ -7,7 +7,6 @@
 // centre) / scale, with the diagonal of the box of all inner vertices as scale. So no result depends on the unit or the
 // offset of the input. Cost: O(n log n) for the weld, O(n) for the rest. After a failure no memory stays allocated.
 #pragma once
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -16,30 +15,10 @@
 #include "base/memory.h"
 #include "base/shared_vector.h"
 #include "base/span.h"
+#include "base/vec3.h"
 #include "mesh/faces.h"
 
-namespace hf_inner {
-
-// A plain vector of three numbers, with the basic operations. Arrays of it are arrays of doubles without padding, which
-// kernels read as such. Larger algebra uses Eigen (base/algebra.h).
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
-};
-inline Vec3 operator+(Vec3 a, Vec3 b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(Vec3 a, Vec3 b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator*(double s, Vec3 a) noexcept { return {s * a.x, s * a.y, s * a.z}; }
-inline double dot(Vec3 a, Vec3 b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) noexcept {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double norm(Vec3 a) noexcept { return std::sqrt(dot(a, a)); }
-// Scales a to length 1. It divides by the largest coordinate first, so that no square leaves the range. 0 stays 0.
-inline Vec3 unit_vector(Vec3 a) noexcept {
-  const double most = std::fmax(std::fmax(std::fabs(a.x), std::fabs(a.y)), std::fabs(a.z));
-  if (!(most > 0)) return {};
-  const Vec3 b{a.x / most, a.y / most, a.z / most};
-  return (1 / norm(b)) * b;
-}
+namespace hf_inner::mesh {
 
 using Triangle = std::int32_t[3];
 
@@ -178,4 +157,4 @@ struct Mesh {
 // Finds the smallest angle of a mesh, and counts triangles of zero area that its intake did not set aside.
 void measure_triangles(const Mesh& mesh, MeshReport& report, JobRunner* jobs, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

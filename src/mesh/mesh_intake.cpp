@@ -3,7 +3,7 @@
 #include "base/arguments.h"
 #include "mesh/face_intake.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Refuses indices that are twice as wide as the array they are given in. Every second number is then the high half of
@@ -72,4 +72,4 @@ MeshInput read_mesh(const hf_surface_desc& desc, const FaceRows& faces) {
   return input;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -3,7 +3,7 @@
 #include "hf/surface.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Returns the faces, or none where triangles are set. Throws HF_ERROR_EMPTY, _INVALID_ARGUMENT, _NULL_POINTER or
 // _TOO_SMALL (a stride).
@@ -16,4 +16,4 @@ std::uint32_t cut_size(const FaceRows& faces);
 // faces: from the desc. Throws as read_faces does.
 MeshInput read_mesh(const hf_surface_desc& desc, const FaceRows& faces);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

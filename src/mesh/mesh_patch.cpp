@@ -6,7 +6,7 @@
 #include "base/index.h"
 #include "mesh/places.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // The corners of a triangle in ascending order.
@@ -447,4 +447,4 @@ PatchedMesh patched_mesh(const Mesh& before, const Topology* topology, const Mes
   return MeshPatcher(before, topology, patch, memory, jobs).make();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -9,7 +9,7 @@
 #include "base/index.h"
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 struct MeshPatch {
   Span<const std::uint32_t> removed;    // triangles of the caller
@@ -43,4 +43,4 @@ PatchedMesh patched_mesh(const Mesh& before, const Topology* topology, const Mes
 // else all are found again. fresh: its new vertices.
 void put_components(const Mesh& before, Span<const Index> fresh, PatchedMesh& out, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

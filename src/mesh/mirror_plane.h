@@ -2,7 +2,7 @@
 #pragma once
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 enum class PlaneFrom : std::int32_t { given = 0, bones = 1, surface = 2 };
 
@@ -16,4 +16,4 @@ struct MirrorPlane {
   Vec3 turn(const Vec3& direction) const noexcept { return direction - (2 * dot(normal, direction)) * normal; }
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

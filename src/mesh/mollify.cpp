@@ -5,7 +5,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Number of triangles or edges that one thread's job takes. Half and twice the value take the same time within 10 %,
@@ -110,4 +110,4 @@ MollifiedLengths MollifiedLengths::make(const Mesh& mesh, const Topology& topolo
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -12,7 +12,7 @@
 
 #include "mesh/topology.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // In a triangle with edges a >= b >= c, b + c - a must be at least this share of a. A flat triangle then gets
 // cotangents of 3,500. Less leaves larger cotangents and fewer digits, more moves fields. On a triceratops with angles
@@ -62,4 +62,4 @@ struct MollifiedLengths {
   std::uint32_t thin_count = 0;       // triangles that were too thin
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -4,7 +4,7 @@
 
 #include "base/algebra.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Points of a leaf: larger leaves compare more pairs, smaller ones take memory. 4 takes up to 30 % more of both; 16
@@ -166,4 +166,4 @@ bool PointTree::half_near(Node& split, Node& whole) {
   return near(first, whole) || near(second, whole);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

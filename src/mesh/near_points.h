@@ -11,7 +11,7 @@
 #include "base/progress.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 class Nearness {
  public:
@@ -76,4 +76,4 @@ class PointTree {
   Poller poller_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 double squared(Vec3 a) { return dot(a, a); }
@@ -85,4 +85,4 @@ NearestTriangle::Found NearestTriangle::find(Vec3 p, Index hint, double enough) 
   return found;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

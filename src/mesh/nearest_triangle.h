@@ -5,7 +5,7 @@
 #include "mesh/box_tree.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Returns the squared distance from p to a triangle. weights: NULL, or receives the barycentric weights of the nearest
 // point.
@@ -40,4 +40,4 @@ class NearestTriangle {
   BoxTree tree_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -2,7 +2,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // A component counts as closed if its area vectors cancel up to this share of its area. A larger number takes open
@@ -53,4 +53,4 @@ Vector<double> component_openness(const Mesh& mesh, Memory& memory) {
   return area;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -4,7 +4,7 @@
 #include "mesh/mesh_patch.h"
 #include "mesh/union_find.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Components are numbered by the first of the caller's vertices in them.
@@ -74,4 +74,4 @@ void put_components(const Mesh& before, Span<const Index> fresh, PatchedMesh& ou
   for (const Index v : fresh) mesh.component[at(v)] = of_set[at(sets.find(local(v)))];
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

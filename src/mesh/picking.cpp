@@ -8,7 +8,7 @@
 #include "base/index.h"
 #include "mesh/places.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -199,4 +199,4 @@ NearestVertex nearest_vertex(const PickTarget& target, Vec3 point, JobRunner& jo
   return best;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -3,7 +3,7 @@
 #include "hf/surface.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // The surface to search. `posed` has one row per vertex of the caller; if it is empty, the surface is at rest. Both
 // searches pass over the whole surface on the threads of `jobs`. The result does not depend on the number of threads.
@@ -41,4 +41,4 @@ struct NearestVertex {
 // than farthest_pose (places.h).
 NearestVertex nearest_vertex(const PickTarget& target, Vec3 point, JobRunner& jobs, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

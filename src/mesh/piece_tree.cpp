@@ -5,7 +5,7 @@
 
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 constexpr float far_away = 1e18f;  // its square is finite
@@ -123,4 +123,4 @@ bool PieceTree::is_near(Index piece, const ItemBox& box, double squared) const n
   return false;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -13,7 +13,7 @@
 #include "base/span.h"
 #include "mesh/box_tree.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 class PieceTree {
  public:
@@ -113,4 +113,4 @@ void PieceTree::near(Index piece, const Vec3& p, Reach&& reach, Item&& item) con
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

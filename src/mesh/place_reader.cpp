@@ -5,7 +5,7 @@
 
 #include "base/arguments.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Barycentric weights may sum to 1 within this. Three of single precision are off by at most 9e-8, so half and double
@@ -100,4 +100,4 @@ SurfacePlace PlaceReader::read(std::uint32_t i) const {
   return snapped(place);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -6,7 +6,7 @@
 #include "mesh/nearest_triangle.h"
 #include "mesh/places.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Places of a caller: `count` of them, in the one array that is set. Throws HF_ERROR_INVALID_ARGUMENT (two are set) or
 // HF_ERROR_NULL_POINTER (none).
@@ -38,4 +38,4 @@ class PlaceReader {
   std::optional<NearestTriangle> surface_;  // for points
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

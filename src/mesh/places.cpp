@@ -5,7 +5,7 @@
 
 #include "base/arguments.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 std::int32_t inner_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t position, const char* list) {
   if (vertex >= mesh.report.vertex_count)
     fail(HF_ERROR_OUT_OF_RANGE, static_cast<std::uint32_t>(position),
@@ -74,4 +74,4 @@ void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t inde
     fail(HF_ERROR_UNSUPPORTED, index, "this call needs triangles for %s; the surface was made of a graph", purpose);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

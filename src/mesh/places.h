@@ -5,7 +5,7 @@
 #include "hf/surface.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // The inner vertex, Mesh::none for an isolated one. Throws HF_ERROR_OUT_OF_RANGE.
 std::int32_t inner_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t position, const char* list = "the list");
@@ -74,4 +74,4 @@ inline bool is_too_far(Vec3 inner) noexcept { return !(norm(inner) <= farthest_p
 // Throws HF_ERROR_UNSUPPORTED for a surface that was made of a graph. purpose: why the call needs triangles.
 void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t index = HF_NO_INDEX);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

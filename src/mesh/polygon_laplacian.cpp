@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "mesh/laplacian.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // A larger face counts as the triangles of its cut. Its corners would form a dense block: 64 corners give 4,096
@@ -234,4 +234,4 @@ void clamp_weights(SymmetricMatrix& matrix, Memory& memory) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

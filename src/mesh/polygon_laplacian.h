@@ -9,7 +9,7 @@
 #include "base/symmetric_matrix.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // The point of a face and the weights of its corners: of sum 1, and the smallest that give the point.
 Vec3 face_point(Span<const Vec3> corners, Vector<double>& weights);
@@ -35,4 +35,4 @@ SymmetricMatrix polygon_laplacian(const Mesh& mesh, Memory& memory, JobRunner* j
 // Raises every weight to at least 1e-3 of the median absolute weight, and updates the diagonal.
 void clamp_weights(SymmetricMatrix& matrix, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -5,7 +5,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Paths that are shorter by less than this share of the box diagonal count as equal; the later one is dropped. It is
@@ -78,4 +78,4 @@ void ShortestOnEdges::keep(Index edge, const EdgeRays& rays, Vector<Interval>& p
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -6,7 +6,7 @@
 #pragma once
 #include "base/memory.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 struct Interval {
   double begin, end;
@@ -38,4 +38,4 @@ class ShortestOnEdges {
   Vector<Interval> rest_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

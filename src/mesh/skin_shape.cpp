@@ -4,7 +4,7 @@
 
 #include "mesh/orientation.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Three rays tell whether a point is inside. Most of them decide, so that one that passes along a seam does not. They
@@ -103,4 +103,4 @@ bool SkinShape::inside(const Vec3& point) const noexcept {
   return votes >= 2;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -3,7 +3,7 @@
 #include "mesh/box_tree.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // The triangles of a surface in a tree. Rays tell which points are inside, and how thick the surface is there.
 class SkinShape {
@@ -26,4 +26,4 @@ class SkinShape {
   BoxTree tree_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "mesh/edge_paths.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 bool has(const Index* corners, Index v) noexcept { return corners[0] == v || corners[1] == v || corners[2] == v; }
@@ -289,4 +289,4 @@ SurfaceCurve surface_curve(const Mesh& mesh, const Topology& topology, Span<cons
   return curve;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

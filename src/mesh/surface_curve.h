@@ -8,7 +8,7 @@
 
 #include "mesh/exact_path.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // A point of a triangle. A corner of weight 0 may be Mesh::none. The weights sum to 1.
 struct CurvePoint {
@@ -48,4 +48,4 @@ std::int32_t nearest_corner(const CurvePoint& point) noexcept;
 // Throws HF_ERROR_INVALID_ARGUMENT if a point lies in another component than the first point; index: its position.
 void require_one_component(const Mesh& mesh, Span<const CurvePoint> points);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -6,7 +6,7 @@
 #include "base/index.h"
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Number of vertices that one thread's job takes. Half and twice the value take the same time within 10 %, the
@@ -145,4 +145,4 @@ void Topology::triangles_at(Index v, Vector<Index>& out) const {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

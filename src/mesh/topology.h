@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 struct Topology {
   explicit Topology(Memory& memory)
@@ -50,4 +50,4 @@ struct Topology {
 // in the same direction.
 void count_edges(const Topology& topology, MeshReport& report) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

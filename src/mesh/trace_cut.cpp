@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "mesh/vertex_fan.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 class CutTracer {
@@ -448,4 +448,4 @@ TracedCut trace_cut(const Mesh& mesh, const Topology& topology, Span<const Curve
   return CutTracer(mesh, topology, line, memory).make();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -7,7 +7,7 @@
 #include "mesh/cut_line.h"
 #include "mesh/places.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // All numbers are the caller's. The arrays fit hf_patch_desc.
 struct TracedCut {
@@ -27,4 +27,4 @@ struct TracedCut {
 TracedCut trace_cut(const Mesh& mesh, const Topology& topology, Span<const CurvePoint> points,
                     const CutOptions& options, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -5,7 +5,7 @@
 
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // A side is flipped if the angles opposite sum to more than pi by this sine. Without it, rounding flips sides to and
@@ -288,4 +288,4 @@ bool TriangleDivision::join(Index from, Index to) {
   return true;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -8,7 +8,7 @@
 #include "base/span.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Whole barycentric coordinates: the first two of three.
 struct GridPoint {
@@ -80,4 +80,4 @@ class TriangleDivision {
   Index here_ = 0;        // where the last point was found
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -5,7 +5,7 @@
 
 #include "base/hypotenuse.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Returns the distance of corner C from a source that has distance a from corner A and b from corner B. The numbers ab,
 // ac and bc are the edge lengths of the triangle. The path is a straight line if that crosses the edge AB, else it
@@ -23,4 +23,4 @@ inline double distance_across(double a, double b, double ab, double ac, double b
   return std::min(along_edges, hypotenuse(cx - sx, cy + sy));
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

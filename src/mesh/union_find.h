@@ -6,7 +6,7 @@
 #include "base/index.h"
 #include "base/memory.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 struct UnionFind {
   explicit UnionFind(std::size_t count, Memory& memory) : parent(count, &memory) {
@@ -27,4 +27,4 @@ struct UnionFind {
   Vector<Index> parent;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -4,7 +4,7 @@
 
 #include "mesh/union_find.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 Vector<FanPart> fan_parts(Span<const Wing> wings, Span<const CutEdge> cut, Memory& memory) {
   struct Side {
@@ -35,4 +35,4 @@ Vector<FanPart> fan_parts(Span<const Wing> wings, Span<const CutEdge> cut, Memor
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/span.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // A triangle at a vertex, with its next corners around it.
 struct Wing {
@@ -28,4 +28,4 @@ struct CutEdge {
 // wings: all at one vertex. cut: sorted.
 Vector<FanPart> fan_parts(Span<const Wing> wings, Span<const CutEdge> cut, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -3,7 +3,7 @@
 #include "base/arguments.h"
 #include "mesh/places.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Appends the welded vertex of every vertex in the caller's list, or Mesh::none for an isolated vertex. Throws
 // HF_ERROR_OUT_OF_RANGE with the position in the list.
@@ -64,4 +64,4 @@ struct Regions {
   Vector<std::int32_t> vertices;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

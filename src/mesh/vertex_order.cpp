@@ -4,7 +4,7 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // Vertices that lie together: the pieces in which loops over vertices run (deform/rest.h). No result of a mesh that
@@ -87,4 +87,4 @@ Vector<Index> curve_order(Span<const Vec3> positions, JobRunner* jobs, Memory& m
   return order;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -9,7 +9,7 @@
 
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 // Returns the position of point p, whose coordinates lie in -0.5 to 0.5, along the curve.
 std::uint64_t hilbert_key(Vec3 p) noexcept;
@@ -21,4 +21,4 @@ bool is_local(Span<const std::int32_t> corners, std::size_t count) noexcept;
 // Sorts the vertices 0 .. n - 1 along the curve: entry i is the vertex that comes i-th. jobs: threads to use, or null.
 Vector<std::int32_t> curve_order(Span<const Vec3> positions, JobRunner* jobs, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

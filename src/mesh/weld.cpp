@@ -7,7 +7,7 @@
 #include "base/index.h"
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // The hash table of positions starts with this many entries. It doubles until it has two per vertex. A larger number
@@ -111,4 +111,4 @@ Vector<Index> weld(const MeshInput& input, Memory& memory) {
   return weld_exact(input, memory);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

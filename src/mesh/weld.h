@@ -7,7 +7,7 @@
 #pragma once
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 
 Vector<std::int32_t> weld(const MeshInput& input, Memory& memory);
 
@@ -17,4 +17,4 @@ Vector<std::int32_t> weld_exact(const MeshInput& input, Memory& memory);
 // finite number above 0.
 Vector<std::int32_t> weld_tolerance(const MeshInput& input, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

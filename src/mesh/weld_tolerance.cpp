@@ -14,7 +14,7 @@
 #include "mesh/near_points.h"
 #include "mesh/weld.h"
 
-namespace hf_inner {
+namespace hf_inner::mesh {
 namespace {
 
 // The diagonal of a cell is 0.99 tolerances. Points a tolerance apart lie at most two cells apart. Both hold from 1.733
@@ -238,4 +238,4 @@ Vector<Index> weld_tolerance(const MeshInput& input, Memory& memory) {
   return representative;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::mesh

@@ -3,17 +3,21 @@
 #include "factor/ordering.h"
 #include "peers/updown.h"
 
-namespace hf_inner {
+namespace hf_inner::peers {
 
 void require_updown() {
   fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
        "the engine updown needs a build with HF_WITH_GPL; hf_create makes a solver of the same fields");
 }
 
-std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core>, double) {
+std::shared_ptr<solve::SiteSolver> make_updown_solver(std::shared_ptr<const surface::Core>, double) {
   require_updown();
   return nullptr;
 }
+
+}  // namespace hf_inner::peers
+
+namespace hf_inner::factor {
 
 void require_metis() {
   fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
@@ -22,4 +26,4 @@ void require_metis() {
 
 void order_by_metis(const SymmetricMatrix&, Memory&, Buffer<std::int32_t>&) { require_metis(); }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 
-namespace hf_inner {
+namespace hf_inner::peers {
 namespace {
 
 // Weight of hard sites as penalties, as in Xu et al. 2009. With more than the second number, rounding hides the other
@@ -18,11 +18,11 @@ double read_penalty(double given) {
   return given > 0 ? given : default_penalty;
 }
 
-void require_formed(const Core& core) {
+void require_formed(const surface::Core& core) {
   if (core.root)
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
          "a vertex has more than %d neighbours; only hf_create makes solvers of bi-harmonic fields there",
          core.formed_valence);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::peers

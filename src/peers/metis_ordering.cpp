@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "factor/ordering.h"
 
-namespace hf_inner {
+namespace hf_inner::factor {
 namespace {
 
 // Saves the host's rand() sequence and restores it at the end of its life, because METIS seeds rand() and draws from
@@ -56,4 +56,4 @@ void order_by_metis(const SymmetricMatrix& matrix, Memory& memory, Buffer<std::i
   if (!done) fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "METIS failed with CHOLMOD status %d", status);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::factor

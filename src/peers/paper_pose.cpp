@@ -7,7 +7,7 @@
 
 #include "base/elementary.h"
 
-namespace hf_inner {
+namespace hf_inner::peers {
 namespace {
 
 // Level bands per handle's field, linear and of equal value.
@@ -25,7 +25,7 @@ constexpr std::int32_t samples_per_cluster = 40;
 struct Members {
   Vector<std::int32_t> start, vertex;
   Vector<double> weight;
-  Members(const ClusterWeights& weights, std::int32_t vertex_count, Memory& memory)
+  Members(const deform::ClusterWeights& weights, std::int32_t vertex_count, Memory& memory)
       : start(weights.free_count() + 1, 0, &memory), vertex(&memory), weight(&memory) {
     const auto for_entries = [&](auto&& use) {
       for (std::int32_t v = 0; v < vertex_count; ++v) {
@@ -50,8 +50,8 @@ struct Members {
 // Matches the shape of one cluster: returns the rigid motion that takes its sampled vertices from rest nearest to
 // `position_of(sample)`.
 template <class PositionOf>
-RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_t f, const Quaternion& near,
-                        PositionOf&& position_of) noexcept {
+deform::RigidMotion match_shape(const PaperSystem& system, const mesh::Mesh& mesh, std::int32_t f,
+                                const deform::Quaternion& near, PositionOf&& position_of) noexcept {
   double sum = 0;
   Vec3 rest_centre, centre;
   for (std::int32_t k = system.cluster_start[f]; k < system.cluster_start[f + 1]; ++k) {
@@ -66,16 +66,18 @@ RigidMotion match_shape(const PaperSystem& system, const Mesh& mesh, std::int32_
   Mat3 s;
   for (std::int32_t k = system.cluster_start[f]; k < system.cluster_start[f + 1]; ++k) {
     const PaperSystem::Member& m = system.member[k];
-    add_outer(s, m.weight, position_of(m.sample) - centre, mesh.positions[system.sample[m.sample]] - rest_centre);
+    deform::add_outer(s, m.weight, position_of(m.sample) - centre,
+                      mesh.positions[system.sample[m.sample]] - rest_centre);
   }
-  RigidMotion motion;
-  motion.rotation = best_rotation_from(s, near);
-  motion.translation = centre - rotate(motion.rotation, rest_centre);
+  deform::RigidMotion motion;
+  motion.rotation = deform::best_rotation_from(s, near);
+  motion.translation = centre - deform::rotate(motion.rotation, rest_centre);
   return motion;
 }
 
 // Writes the motion of free cluster f as an iterate of seven numbers, and its distance to the fit as their residual.
-void note_motion(const RigidMotion& now, const RigidMotion& fit, std::size_t f, PaperState& state) noexcept {
+void note_motion(const deform::RigidMotion& now, const deform::RigidMotion& fit, std::size_t f,
+                 PaperState& state) noexcept {
   double *z = state.iterate.data() + 7 * f, *r = state.residual.data() + 7 * f;
   const double sign = fit.rotation.dot(now.rotation) < 0 ? -1.0 : 1.0;
   for (int i = 0; i < 4; ++i) {
@@ -91,20 +93,20 @@ void note_motion(const RigidMotion& now, const RigidMotion& fit, std::size_t f, 
   r[6] = step.z;
 }
 
-RigidMotion noted_motion(const PaperState& state, std::size_t f) noexcept {
+deform::RigidMotion noted_motion(const PaperState& state, std::size_t f) noexcept {
   const double* z = state.iterate.data() + 7 * f;
-  return {normalised(Quaternion({z[0], z[1], z[2]}, z[3])), {z[4], z[5], z[6]}};
+  return {deform::normalised(deform::Quaternion({z[0], z[1], z[2]}, z[3])), {z[4], z[5], z[6]}};
 }
 
 }  // namespace
 
-PaperSystem::PaperSystem(const Core& core, const ClusterWeights& weights, Memory& memory)
+PaperSystem::PaperSystem(const surface::Core& core, const deform::ClusterWeights& weights, Memory& memory)
     : handle_count(weights.handle_count),
       free_count(weights.free_count()),
       sample(&memory),
       cluster_start(&memory),
       member(&memory) {
-  const Mesh& mesh = core.mesh;
+  const mesh::Mesh& mesh = core.mesh;
   const Members members(weights, core.size(), memory);
   Vector<std::int32_t> number(core.size(), -1, &memory);
   Vector<double> distance(&memory);
@@ -134,7 +136,7 @@ PaperSystem::PaperSystem(const Core& core, const ClusterWeights& weights, Memory
 }
 
 void PaperState::fit(const PaperSystem& system) {
-  motion.assign(system.free_count, RigidMotion());
+  motion.assign(system.free_count, deform::RigidMotion());
   position.assign(system.sample.size(), Vec3());
   const std::size_t size = 7 * static_cast<std::size_t>(system.free_count);
   iterate.assign(size, 0.0);
@@ -142,44 +144,45 @@ void PaperState::fit(const PaperSystem& system) {
   anderson.fit(size);
 }
 
-std::shared_ptr<PoseScheme::State> PaperSystem::rest(Memory& memory) const {
+std::shared_ptr<deform::PoseScheme::State> PaperSystem::rest(Memory& memory) const {
   auto state = make_shared_in<PaperState>(memory, memory);
   state->fit(*this);
   return state;
 }
 
-void PaperSystem::fit(const Mesh& mesh, const Vec3* positions, PoseScheme::State& state) const noexcept {
+void PaperSystem::fit(const mesh::Mesh& mesh, const Vec3* positions, deform::PoseScheme::State& state) const noexcept {
   for (std::int32_t f = 0; f < free_count; ++f)
     state.motion[f] =
         match_shape(*this, mesh, f, state.motion[f].rotation, [&](std::int32_t s) { return positions[sample[s]]; });
 }
 
-SolveReport PaperSystem::solve(const Mesh& mesh, const ClusterWeights& weights, std::uint32_t iterations,
-                               double tolerance, PoseScheme::State& given, Affine* transforms) const noexcept {
+deform::SolveReport PaperSystem::solve(const mesh::Mesh& mesh, const deform::ClusterWeights& weights,
+                                       std::uint32_t iterations, double tolerance, deform::PoseScheme::State& given,
+                                       deform::Affine* transforms) const noexcept {
   PaperState& state = static_cast<PaperState&>(given);
-  SolveReport report;
-  for (std::int32_t f = 0; f < free_count; ++f) transforms[handle_count + f] = to_affine(state.motion[f]);
+  deform::SolveReport report;
+  for (std::int32_t f = 0; f < free_count; ++f) transforms[handle_count + f] = deform::to_affine(state.motion[f]);
   if (free_count == 0) return report;
   state.anderson.forget();
   while (report.iterations < iterations) {
     ++report.iterations;
     report.last_change = 0;
     for (std::size_t s = 0; s < sample.size(); ++s)
-      state.position[s] = blend_vertex(mesh, weights, transforms, sample[s]);
+      state.position[s] = deform::blend_vertex(mesh, weights, transforms, sample[s]);
     double moved = 0;
     for (std::int32_t f = 0; f < free_count; ++f) {
-      const RigidMotion& old = state.motion[f];
-      const RigidMotion fit =
+      const deform::RigidMotion& old = state.motion[f];
+      const deform::RigidMotion fit =
           match_shape(*this, mesh, f, old.rotation, [&](std::int32_t s) { return state.position[s]; });
-      const double turned = 2.0 * std::sqrt(2.0) * sine(0.5 * angle_between(fit.rotation, old.rotation));
+      const double turned = 2.0 * std::sqrt(2.0) * sine(0.5 * deform::angle_between(fit.rotation, old.rotation));
       report.last_change = std::max(report.last_change, turned);
       moved = std::max(moved, norm(fit.translation - old.translation));
       note_motion(old, fit, static_cast<std::size_t>(f), state);
     }
-    state.anderson.step(state.iterate, state.residual, 7, longest_leap);
+    state.anderson.step(state.iterate, state.residual, 7, deform::longest_leap);
     for (std::int32_t f = 0; f < free_count; ++f) {
       state.motion[f] = noted_motion(state, static_cast<std::size_t>(f));
-      transforms[handle_count + f] = to_affine(state.motion[f]);
+      transforms[handle_count + f] = deform::to_affine(state.motion[f]);
     }
     if (std::max(report.last_change, moved) < tolerance) break;
   }
@@ -188,31 +191,31 @@ SolveReport PaperSystem::solve(const Mesh& mesh, const ClusterWeights& weights, 
 
 namespace {
 
-class PaperScheme final : public PoseScheme {
+class PaperScheme final : public deform::PoseScheme {
  public:
-  PaperScheme() noexcept : PoseScheme(bands_of_paper(), hf_inner::default_iterations, hf_inner::idle_limit) {}
-  std::shared_ptr<const System> prepare(const Core& core, const ClusterWeights& weights,
+  PaperScheme() noexcept : deform::PoseScheme(bands_of_paper(), hf_inner::default_iterations, hf_inner::idle_limit) {}
+  std::shared_ptr<const System> prepare(const surface::Core& core, const deform::ClusterWeights& weights,
                                         Memory& memory) const override {
     return make_shared_in<PaperSystem>(memory, core, weights, memory);
   }
 
  private:
-  static BandOptions bands_of_paper() noexcept {
-    BandOptions options;
+  static deform::BandOptions bands_of_paper() noexcept {
+    deform::BandOptions options;
     options.band_count = default_bands;
     options.degree = 1;
-    options.spacing = BandSpacing::equal_value;
+    options.spacing = deform::BandSpacing::equal_value;
     return options;
   }
 };
 
 }  // namespace
 
-std::shared_ptr<const PoseScheme> paper_scheme() noexcept {
+std::shared_ptr<const deform::PoseScheme> paper_scheme() noexcept {
   // A static object with a destructor would be a call at the end of the process; this one holds nothing and stays.
   alignas(PaperScheme) static unsigned char room[sizeof(PaperScheme)];
   static const PaperScheme* const scheme = new (room) PaperScheme;
   return {std::shared_ptr<void>(), scheme};
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::peers

@@ -9,17 +9,18 @@
 #include "deform/anderson.h"
 #include "deform/pose_scheme.h"
 
-namespace hf_inner {
+namespace hf_inner::peers {
 
 // The scheme, for PoseOptions::scheme.
-std::shared_ptr<const PoseScheme> paper_scheme() noexcept;
+std::shared_ptr<const deform::PoseScheme> paper_scheme() noexcept;
 
-struct PaperSystem final : PoseScheme::System {
-  PaperSystem(const Core& core, const ClusterWeights& weights, Memory& memory);
-  std::shared_ptr<PoseScheme::State> rest(Memory& memory) const override;
-  void fit(const Mesh& mesh, const Vec3* positions, PoseScheme::State& state) const noexcept override;
-  SolveReport solve(const Mesh& mesh, const ClusterWeights& weights, std::uint32_t iterations, double tolerance,
-                    PoseScheme::State& state, Affine* transforms) const noexcept override;
+struct PaperSystem final : deform::PoseScheme::System {
+  PaperSystem(const surface::Core& core, const deform::ClusterWeights& weights, Memory& memory);
+  std::shared_ptr<deform::PoseScheme::State> rest(Memory& memory) const override;
+  void fit(const mesh::Mesh& mesh, const Vec3* positions, deform::PoseScheme::State& state) const noexcept override;
+  deform::SolveReport solve(const mesh::Mesh& mesh, const deform::ClusterWeights& weights, std::uint32_t iterations,
+                            double tolerance, deform::PoseScheme::State& state,
+                            deform::Affine* transforms) const noexcept override;
   std::int32_t handle_count, free_count;
   Vector<std::int32_t> sample;         // sampled vertices, all different
   Vector<std::int32_t> cluster_start;  // samples of free cluster f: member[cluster_start[f] .. cluster_start[f + 1])
@@ -30,7 +31,7 @@ struct PaperSystem final : PoseScheme::System {
   Vector<Member> member;
 };
 
-struct PaperState final : PoseScheme::State {
+struct PaperState final : deform::PoseScheme::State {
   explicit PaperState(Memory& memory)
       : State(memory), position(&memory), iterate(&memory), residual(&memory), anderson(memory) {}
   PaperState(const PaperState& other, Memory& memory)
@@ -48,7 +49,7 @@ struct PaperState final : PoseScheme::State {
   // Seven numbers per free cluster, its motion, and how far they are from their fit; and the acceleration that uses
   // them.
   Vector<double> iterate, residual;
-  Anderson anderson;
+  deform::Anderson anderson;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::peers

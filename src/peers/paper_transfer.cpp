@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "transfer/clusters.h"
 
-namespace hf_inner {
+namespace hf_inner::peers {
 namespace {
 
 // Level bands per field; each is a cluster of vertices. At half the value: the error of a horse
@@ -39,7 +39,7 @@ double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
 
 void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> field, std::int32_t* joint,
                     float* weight, Memory& memory) {
-  Vector<ClusterWeight> candidates(at(2 * width), &memory);
+  Vector<transfer::ClusterWeight> candidates(at(2 * width), &memory);
   Poller poller;
   for (std::size_t v = 0; v < field.size() / at(width); ++v) {
     poller.due();
@@ -55,14 +55,15 @@ void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> f
         }
       }
     }
-    write_weights(candidates.data(), count, joint + v * blend_count, weight + v * blend_count);
+    transfer::write_weights(candidates.data(), count, joint + v * transfer::blend_count,
+                            weight + v * transfer::blend_count);
   }
 }
 
 // The narrow kernel of a cluster (which gives its rotation) has the weights of one level band. The broad
 // kernel also covers the neighbouring bands.
 void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32_t width, Span<const double> field,
-               Span<const double> area, ClusterRows& out) {
+               Span<const double> area, transfer::ClusterRows& out) {
   std::int32_t nearest = 0;
   double best = 2;
   const double level = static_cast<double>(band) / (bands - 1);
@@ -84,10 +85,10 @@ void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32
       nearest = static_cast<std::int32_t>(v);
     }
   }
-  finish_rows(out, nearest);
+  transfer::finish_rows(out, nearest);
 }
 
-void append_vertices(const KernelRow& row, const Core& core, SourceKernels& out) {
+void append_vertices(const transfer::KernelRow& row, const surface::Core& core, transfer::SourceKernels& out) {
   const std::size_t begin = out.slope.size();
   Vec3 centroid;
   for (std::size_t i = 0; i < row.vertex.size(); ++i)
@@ -99,10 +100,10 @@ void append_vertices(const KernelRow& row, const Core& core, SourceKernels& out)
     out.slope.push_back(row.weight[i] * p);
     trace += row.weight[i] * dot(p, p);
   }
-  close_row(begin, trace, out);
+  transfer::close_row(begin, trace, out);
 }
 
-class PaperClusters final : public ClusterScheme {
+class PaperClusters final : public transfer::ClusterScheme {
  public:
   std::int32_t cluster_count(std::int32_t given, std::int32_t field_count) const noexcept override {
     return field_count *
@@ -113,22 +114,22 @@ class PaperClusters final : public ClusterScheme {
     weigh_by_bands(field_count, cluster_count / field_count, field, joint, weight, memory);
   }
   void collect(std::int32_t cluster, std::int32_t cluster_count, std::int32_t field_count, Span<const double> field,
-               Span<const double> area, ClusterRows& out) const override {
+               Span<const double> area, transfer::ClusterRows& out) const override {
     const std::int32_t bands = cluster_count / field_count;
     band_rows(cluster / bands, cluster % bands, bands, field_count, field, area, out);
   }
-  void append(const KernelRow& row, const Core& core, SourceKernels& out) const override {
+  void append(const transfer::KernelRow& row, const surface::Core& core, transfer::SourceKernels& out) const override {
     append_vertices(row, core, out);
   }
 };
 
 }  // namespace
 
-std::shared_ptr<const ClusterScheme> paper_clusters() noexcept {
+std::shared_ptr<const transfer::ClusterScheme> paper_clusters() noexcept {
   // A static object with a destructor would be a call at the end of the process; this one holds nothing and stays.
   alignas(PaperClusters) static unsigned char room[sizeof(PaperClusters)];
   static const PaperClusters* const scheme = new (room) PaperClusters;
   return {std::shared_ptr<void>(), scheme};
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::peers

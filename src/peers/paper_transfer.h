@@ -7,9 +7,9 @@
 
 #include "transfer/cluster_scheme.h"
 
-namespace hf_inner {
+namespace hf_inner::peers {
 
 // The scheme, for TransferOptions::scheme.
-std::shared_ptr<const ClusterScheme> paper_clusters() noexcept;
+std::shared_ptr<const transfer::ClusterScheme> paper_clusters() noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::peers

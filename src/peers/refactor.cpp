@@ -5,12 +5,13 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "engine/corrections.h"
-#include "engine/dependence.h"
 #include "peers/intake.h"
+#include "solve/corrections.h"
+#include "solve/dependence.h"
 
-namespace hf_inner {
-RefactorSolver::RefactorSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), state_(*core_->memory) {
+namespace hf_inner::peers {
+RefactorSolver::RefactorSolver(std::shared_ptr<const surface::Core> core)
+    : core_(std::move(core)), state_(*core_->memory) {
   require_formed(*core_);
   state_.count.assign(at(core_->mesh.component_count()), 0);
   state_.factor = core_->factor;
@@ -22,19 +23,19 @@ RefactorSolver::RefactorSolver(const RefactorSolver& other)
       factorisations_(other.factorisations_.load()),
       sweeps_(other.sweeps_.load()) {}
 
-EngineCounters RefactorSolver::counters() const noexcept {
-  EngineCounters counters;
+solve::EngineCounters RefactorSolver::counters() const noexcept {
+  solve::EngineCounters counters;
   counters.factorisations = factorisations_;
   counters.sweeps = sweeps_;
   counters.bytes = state_.factor == core_->factor ? 0.0 : state_.factor->statistics().bytes;
   return counters;
 }
 
-void RefactorSolver::edit(const SiteEdit& edit) {
+void RefactorSolver::edit(const solve::SiteEdit& edit) {
   State next(state_, *core_->memory);
   for (const Index slot : edit.remove) {
     --next.count[at(next.sites[at(slot)].component)];
-    next.sites[at(slot)] = Site{};
+    next.sites[at(slot)] = solve::Site{};
   }
   for (std::size_t i = 0; i < edit.add.size(); ++i) {
     if (next.sites.size() <= at(edit.add[i])) next.sites.resize(at(edit.add[i]) + 1);
@@ -54,19 +55,19 @@ void RefactorSolver::edit(const SiteEdit& edit) {
 
 // Returns true if a hard site depends linearly on others although no pivot failed. Rounding can keep such a pivot
 // positive.
-bool RefactorSolver::crowded_out(const State& state, const DenseBlock& block) const {
-  if (block.least_pivot() >= suspect_share) return false;
-  Vector<HardSite> sites(core_->memory.get());
+bool RefactorSolver::crowded_out(const State& state, const solve::DenseBlock& block) const {
+  if (block.least_pivot() >= solve::suspect_share) return false;
+  Vector<solve::HardSite> sites(core_->memory.get());
   Vector<std::uint8_t> suspect(state.sites.size(), 0, core_->memory.get());
   for (Index i = 0; i < block.count(); ++i) {
-    if (block.pivot_share(i) < suspect_share) suspect[at(state.points[at(block.ids()[at(i)])])] = 1;
+    if (block.pivot_share(i) < solve::suspect_share) suspect[at(state.points[at(block.ids()[at(i)])])] = 1;
   }
   for (std::size_t slot = 0; slot < state.sites.size(); ++slot) {
-    const Site& site = state.sites[slot];
+    const solve::Site& site = state.sites[slot];
     if (site.component >= 0 && site.compliance == 0)
       sites.push_back({&site, static_cast<Index>(slot), suspect[slot] != 0});
   }
-  return dependent_site({sites.data(), sites.size()}, *core_->memory) >= 0;
+  return solve::dependent_site({sites.data(), sites.size()}, *core_->memory) >= 0;
 }
 
 void RefactorSolver::factorise(State& state) const {
@@ -80,7 +81,7 @@ void RefactorSolver::factorise(State& state) const {
   state.floating.assign(state.count.size(), 1);
   state.points.clear();
   for (std::size_t slot = 0; slot < state.sites.size(); ++slot) {
-    const Site& site = state.sites[slot];
+    const solve::Site& site = state.sites[slot];
     if (site.component < 0) continue;
     if (!site.is_vertex()) {
       state.points.push_back(static_cast<Index>(slot));
@@ -104,10 +105,10 @@ void RefactorSolver::factorise(State& state) const {
   state.path.reset();
   if (state.points.empty()) return;
   const auto path = make_shared_in<Vector<double>>(memory, state.points.size() * n, 0.0);
-  Vector<std::shared_ptr<DenseBlock>> open(state.count.size(), &memory);
+  Vector<std::shared_ptr<solve::DenseBlock>> open(state.count.size(), &memory);
   Vector<double> row(&memory);
   for (std::size_t i = 0; i < state.points.size(); ++i) {
-    const Site& site = state.sites[at(state.points[i])];
+    const solve::Site& site = state.sites[at(state.points[i])];
     double* x = path->data() + i * n;
     for (int k = 0; k < 3; ++k) {
       if (site.vertex[k] >= 0 && !eliminated[at(site.vertex[k])])
@@ -115,10 +116,11 @@ void RefactorSolver::factorise(State& state) const {
     }
     state.factor->solve_in_order(x, 1, *core_->jobs);
     auto& block = open[at(site.component)];
-    if (!block) block = make_shared_in<DenseBlock>(memory, memory, std::size_t{state.floating[at(site.component)]});
+    if (!block)
+      block = make_shared_in<solve::DenseBlock>(memory, memory, std::size_t{state.floating[at(site.component)]});
     row.clear();
     for (std::size_t j = 0; j <= i; ++j) {
-      const Site& other = state.sites[at(state.points[j])];
+      const solve::Site& other = state.sites[at(state.points[j])];
       if (other.component != site.component) continue;
       double s = i == j ? site.compliance / core_->mean_diagonal[at(site.component)] : 0.0;
       for (int k = 0; k < 3; ++k) {
@@ -149,12 +151,12 @@ void RefactorSolver::solve_system(const Vector<double>& right, Index channels, d
   sweeps_ += 2;
   Vector<double> x(core_->memory.get());
   for (std::size_t component = 0; component < state_.dense.size(); ++component) {
-    const DenseBlock* block = state_.dense[component].get();
+    const solve::DenseBlock* block = state_.dense[component].get();
     if (!block) continue;
     const Span<const Index> members = block->ids();
     x.resize(members.size() * m);
     for (std::size_t i = 0; i < members.size(); ++i) {
-      const Site& site = state_.sites[at(state_.points[at(members[i])])];
+      const solve::Site& site = state_.sites[at(state_.points[at(members[i])])];
       for (std::size_t c = 0; c < m; ++c) {
         double value = points[at(members[i]) * m + c];
         for (int q = 0; q < 3; ++q) {
@@ -178,15 +180,15 @@ void RefactorSolver::solve_system(const Vector<double>& right, Index channels, d
 // A soft site far stiffer or softer than the mesh hides the numbers of K on its diagonal, and crowded points have small
 // pivots.
 bool RefactorSolver::loses_digits() const noexcept {
-  const bool is_soft = std::any_of(state_.sites.begin(), state_.sites.end(), [](const Site& site) {
+  const bool is_soft = std::any_of(state_.sites.begin(), state_.sites.end(), [](const solve::Site& site) {
     return site.component >= 0 && site.is_vertex() && site.compliance > 0;
   });
   return core_->is_long || is_soft || std::any_of(state_.dense.begin(), state_.dense.end(), [](const auto& block) {
-           return block && block->least_pivot() < crowded_share;
+           return block && block->least_pivot() < solve::crowded_share;
          });
 }
 
-double RefactorSolver::softness(const Site& site) const noexcept {
+double RefactorSolver::softness(const solve::Site& site) const noexcept {
   return site.compliance / core_->mean_diagonal[at(site.component)];
 }
 
@@ -196,7 +198,7 @@ void RefactorSolver::write_vertex_flux(const double* u, Index channels, const do
   const std::size_t m = at(channels);
   const SymmetricMatrix& k = core_->matrix();
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
-    const Site& site = state_.sites[slot];
+    const solve::Site& site = state_.sites[slot];
     if (site.component < 0 || !site.is_vertex()) continue;
     const std::size_t v = at(site.vertex[0]);
     const double soft = softness(site);
@@ -212,7 +214,7 @@ void RefactorSolver::write_vertex_flux(const double* u, Index channels, const do
       for (Index i = k.column_start[v]; i < k.column_start[v + 1]; ++i)
         sum += k.value[at(i)] * (u[at(k.row[at(i)]) * m + c] - u[v * m + c]);
       for (const Index p : state_.points) {
-        const Site& point = state_.sites[at(p)];
+        const solve::Site& point = state_.sites[at(p)];
         for (int q = 0; q < 3; ++q) {
           if (point.vertex[q] == site.vertex[0]) sum -= point.weight[q] * flux[at(p) * m + c];
         }
@@ -230,7 +232,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   Vector<std::int8_t> fixed(n, 0, &memory);
   Vector<double> centre(state_.count.size() * m, 0.0, &memory);
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
-    const Site& site = state_.sites[slot];
+    const solve::Site& site = state_.sites[slot];
     if (site.component < 0) continue;
     for (std::size_t c = 0; c < m; ++c)
       centre[at(site.component) * m + c] += values[slot * m + c] / state_.count[at(site.component)];
@@ -241,7 +243,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
 
   Vector<double> right(n * m, 0.0, &memory), hard(n * m, 0.0, &memory), u(n * m, 0.0, &memory);
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
-    const Site& site = state_.sites[slot];
+    const solve::Site& site = state_.sites[slot];
     if (site.component < 0 || !site.is_vertex()) continue;
     const std::size_t v = at(site.vertex[0]);
     for (std::size_t c = 0; c < m; ++c) {
@@ -289,7 +291,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   }
   const auto hold = [&] {
     for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
-      const Site& site = state_.sites[slot];
+      const solve::Site& site = state_.sites[slot];
       if (site.component >= 0 && site.is_hard_vertex()) std::copy_n(values + slot * m, m, out + at(site.vertex[0]) * m);
     }
   };
@@ -308,7 +310,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
       widest = std::max(widest, std::fabs(centred(slot, c)));
     }
   }
-  Corrections corrections;
+  solve::Corrections corrections;
   double largest = 0;
   do {
     correct(values, channels, out, flux, change.data(), flux_change.data());
@@ -339,7 +341,7 @@ bool RefactorSolver::correct(const double* values, Index channels, const double*
     }
   }
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
-    const Site& site = state_.sites[slot];
+    const solve::Site& site = state_.sites[slot];
     for (std::size_t c = 0; site.component >= 0 && c < m; ++c) {
       double& g = missed[slot * m + c];
       g = values[slot * m + c];
@@ -357,7 +359,7 @@ bool RefactorSolver::correct(const double* values, Index channels, const double*
     for (std::size_t c = 0; c < m; ++c) total[at(core_->mesh.component[v]) * m + c] += right[v * m + c];
   }
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
-    const Site& site = state_.sites[slot];
+    const solve::Site& site = state_.sites[slot];
     for (std::size_t c = 0; site.component >= 0 && site.is_vertex() && c < m; ++c) {
       double& f = force[at(position[at(site.vertex[0])]) * m + c];
       f = site.compliance == 0 ? 0.0 : f + missed[slot * m + c] / softness(site);
@@ -387,4 +389,4 @@ void RefactorSolver::solve_at(const double* values, Index channels, Span<const I
     std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::peers

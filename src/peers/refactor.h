@@ -12,28 +12,30 @@
 #pragma once
 #include <atomic>
 
-#include "engine/dense_block.h"
-#include "engine/site_solver.h"
+#include "solve/dense_block.h"
+#include "solve/site_solver.h"
 
-namespace hf_inner {
+namespace hf_inner::peers {
 
-class RefactorSolver final : public SiteSolver {
+class RefactorSolver final : public solve::SiteSolver {
  public:
   // Throws HF_ERROR_UNSUPPORTED for a core whose bi-harmonic K is not formed (Core::root).
-  explicit RefactorSolver(std::shared_ptr<const Core> core);
+  explicit RefactorSolver(std::shared_ptr<const surface::Core> core);
   RefactorSolver(const RefactorSolver& other);
 
-  void edit(const SiteEdit& edit) override;
+  void edit(const solve::SiteEdit& edit) override;
   void solve(const double* values, std::int32_t channels, double* field, double* flux) const override;
-  void solve_into(const double* values, std::int32_t channels, FieldSink& sink) const override {
-    solve_copied(*this, *core_, values, channels, sink);
+  void solve_into(const double* values, std::int32_t channels, solve::FieldSink& sink) const override {
+    solve::solve_copied(*this, *core_, values, channels, sink);
   }
   void solve_at(const double* values, std::int32_t channels, Span<const std::int32_t> vertices,
                 double* out) const override;
   bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
                double* flux_change) const override;
-  std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<RefactorSolver>(core_->memory, *this); }
-  EngineCounters counters() const noexcept override;
+  std::shared_ptr<solve::SiteSolver> clone() const override {
+    return make_owner_in<RefactorSolver>(core_->memory, *this);
+  }
+  solve::EngineCounters counters() const noexcept override;
   std::int32_t site_count(std::int32_t component) const noexcept override {
     return state_.count[static_cast<std::size_t>(component)];
   }
@@ -51,26 +53,26 @@ class RefactorSolver final : public SiteSolver {
           dense(other.dense, &memory),
           factor(other.factor),
           path(other.path) {}
-    Vector<Site> sites;                               // by slot; component -1: not in use
-    Vector<std::int32_t> count;                       // sites by component
-    Vector<std::uint8_t> floating;                    // by component: 1 if it has no vertex site
-    Vector<std::int32_t> points;                      // slots of the point sites
-    Vector<std::shared_ptr<const DenseBlock>> dense;  // by component, of its point sites
-    std::shared_ptr<const Factor> factor;
+    Vector<solve::Site> sites;                               // by slot; component -1: not in use
+    Vector<std::int32_t> count;                              // sites by component
+    Vector<std::uint8_t> floating;                           // by component: 1 if it has no vertex site
+    Vector<std::int32_t> points;                             // slots of the point sites
+    Vector<std::shared_ptr<const solve::DenseBlock>> dense;  // by component, of its point sites
+    std::shared_ptr<const factor::Factor> factor;
     std::shared_ptr<const Vector<double>> path;  // the columns A^-1 w of the point sites' weights w
   };
   void factorise(State& state) const;
-  bool crowded_out(const State& state, const DenseBlock& block) const;
+  bool crowded_out(const State& state, const solve::DenseBlock& block) const;
   void solve_system(const Vector<double>& right, std::int32_t channels, double* u, Vector<double>& points,
                     Vector<double>& constant, const Vector<double>* total) const;
   void write_vertex_flux(const double* u, std::int32_t channels, const double* right, const double* missed,
                          double* flux) const;
   bool loses_digits() const noexcept;  // then a field needs corrections
-  double softness(const Site& site) const noexcept;
+  double softness(const solve::Site& site) const noexcept;
 
-  std::shared_ptr<const Core> core_;
+  std::shared_ptr<const surface::Core> core_;
   State state_;
   mutable std::atomic<std::uint32_t> factorisations_{1}, sweeps_{0};
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::peers

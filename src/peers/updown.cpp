@@ -11,7 +11,7 @@
 #include "base/index.h"
 #include "peers/intake.h"
 
-namespace hf_inner {
+namespace hf_inner::peers {
 namespace {
 
 // After this many edited sites since the last factorisation, a solve takes a refinement step. A step costs one more
@@ -42,9 +42,9 @@ struct Common {
   fail(HF_ERROR_NOT_POSITIVE_DEFINITE, HF_NO_INDEX, "CHOLMOD stopped with status %d", c.status);
 }
 
-class UpdownSolver final : public SiteSolver {
+class UpdownSolver final : public solve::SiteSolver {
  public:
-  UpdownSolver(std::shared_ptr<const Core> core, double penalty)
+  UpdownSolver(std::shared_ptr<const surface::Core> core, double penalty)
       : core_(std::move(core)), penalty_(penalty), sites_(core_->memory.get()), count_(core_->memory.get()) {
     count_.assign(at(core_->mesh.component_count()), 0);
     try {
@@ -73,17 +73,17 @@ class UpdownSolver final : public SiteSolver {
   }
   UpdownSolver& operator=(const UpdownSolver&) = delete;
 
-  void edit(const SiteEdit& edit) override {
+  void edit(const solve::SiteEdit& edit) override {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!factor_) rebuild();
     Memory& memory = *core_->memory;
-    Vector<Site> sites(sites_, &memory);
+    Vector<solve::Site> sites(sites_, &memory);
     Vector<Index> count(count_, &memory);
-    Vector<Site> leaving(&memory), coming(edit.sites.begin(), edit.sites.end(), &memory);
+    Vector<solve::Site> leaving(&memory), coming(edit.sites.begin(), edit.sites.end(), &memory);
     for (const Index slot : edit.remove) {
       leaving.push_back(sites[at(slot)]);
       --count[at(sites[at(slot)].component)];
-      sites[at(slot)] = Site{};
+      sites[at(slot)] = solve::Site{};
     }
     for (std::size_t i = 0; i < edit.add.size(); ++i) {
       if (sites.size() <= at(edit.add[i])) sites.resize(at(edit.add[i]) + 1);
@@ -116,16 +116,16 @@ class UpdownSolver final : public SiteSolver {
     const std::size_t n = at(core_->size()), m = at(channels);
     Vector<double> centre(count_.size() * m, 0.0, &memory);
     for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
-      const Site& site = sites_[slot];
+      const solve::Site& site = sites_[slot];
       if (site.component < 0) continue;
       for (std::size_t c = 0; c < m; ++c)
         centre[at(site.component) * m + c] += values[slot * m + c] / count_[at(site.component)];
     }
     // Computes the right-hand side R R' s by columns. The mean of each component is subtracted from s.
-    Workspace right(core_->workspaces, n * m), wanted(core_->workspaces, sites_.size() * m);
+    surface::Workspace right(core_->workspaces, n * m), wanted(core_->workspaces, sites_.size() * m);
     std::fill_n(right.data(), n * m, 0.0);
     for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
-      const Site& site = sites_[slot];
+      const solve::Site& site = sites_[slot];
       if (site.component < 0) continue;
       const double a = alpha(site);
       for (std::size_t c = 0; c < m; ++c) {
@@ -137,10 +137,10 @@ class UpdownSolver final : public SiteSolver {
       }
     }
     const double* u = back_substitute(right.data(), m);
-    Workspace refined(core_->workspaces, edits_ > refine_after || core_->refinements > 0 ? n * m : 0);
+    surface::Workspace refined(core_->workspaces, edits_ > refine_after || core_->refinements > 0 ? n * m : 0);
     if (edits_ > refine_after || core_->refinements > 0) {
       std::copy_n(u, n * m, refined.data());
-      Workspace residual(core_->workspaces, n * m);
+      surface::Workspace residual(core_->workspaces, n * m);
       residual_of(wanted.data(), refined.data(), channels, residual.data());
       const double* correction = back_substitute(residual.data(), m);
       for (std::size_t i = 0; i < n * m; ++i) refined[i] += correction[i];
@@ -155,7 +155,7 @@ class UpdownSolver final : public SiteSolver {
     }
     if (!flux) return;
     for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
-      const Site& site = sites_[slot];
+      const solve::Site& site = sites_[slot];
       for (std::size_t c = 0; c < m; ++c) {
         double difference = 0;
         if (site.component >= 0) {
@@ -170,8 +170,8 @@ class UpdownSolver final : public SiteSolver {
     }
   }
 
-  void solve_into(const double* values, Index channels, FieldSink& sink) const override {
-    solve_copied(*this, *core_, values, channels, sink);
+  void solve_into(const double* values, Index channels, solve::FieldSink& sink) const override {
+    solve::solve_copied(*this, *core_, values, channels, sink);
   }
   void solve_at(const double* values, Index channels, Span<const Index> vertices, double* out) const override {
     // This engine cannot solve at single vertices, so it solves the whole field.
@@ -181,10 +181,12 @@ class UpdownSolver final : public SiteSolver {
       std::copy_n(field.data() + at(vertices[i]) * at(channels), channels, out + i * at(channels));
   }
 
-  std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<UpdownSolver>(core_->memory, *this); }
+  std::shared_ptr<solve::SiteSolver> clone() const override {
+    return make_owner_in<UpdownSolver>(core_->memory, *this);
+  }
   double tolerance() const noexcept override { return penalty_tolerance; }
-  EngineCounters counters() const noexcept override {
-    EngineCounters counters;
+  solve::EngineCounters counters() const noexcept override {
+    solve::EngineCounters counters;
     counters.factorisations = 1 + factorisations_;  // the core's own first
     counters.sweeps = sweeps_;
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -196,17 +198,17 @@ class UpdownSolver final : public SiteSolver {
 
  private:
   // Returns the penalty of a site in the unit of K. A compliance of 0 is a hard site.
-  double alpha(const Site& site) const noexcept {
+  double alpha(const solve::Site& site) const noexcept {
     return core_->mean_diagonal[at(site.component)] *
            (site.compliance > 0 ? std::min(1 / site.compliance, penalty_) : penalty_);
   }
-  Site ground(Index component) const noexcept {
-    return Site::at_vertex(core_->mesh, core_->ground[at(component)], 1.0);
+  solve::Site ground(Index component) const noexcept {
+    return solve::Site::at_vertex(core_->mesh, core_->ground[at(component)], 1.0);
   }
 
   // Updates or downdates the factor with all of these sites at once. Returns false if CHOLMOD failed; the factor is
   // then invalid.
-  bool change(const Vector<Site>& sites, bool update) {
+  bool change(const Vector<solve::Site>& sites, bool update) {
     if (sites.empty()) return true;
     const Span<const Index> position = position_;
     cholmod_sparse* r =
@@ -279,8 +281,8 @@ class UpdownSolver final : public SiteSolver {
   }
 
   bool insert_present() {
-    Vector<Site> coming(core_->memory.get()), leaving(core_->memory.get());
-    for (const Site& site : sites_) {
+    Vector<solve::Site> coming(core_->memory.get()), leaving(core_->memory.get());
+    for (const solve::Site& site : sites_) {
       if (site.component >= 0) coming.push_back(site);
     }
     for (std::size_t c = 0; c < count_.size(); ++c) {
@@ -323,7 +325,7 @@ class UpdownSolver final : public SiteSolver {
         residual[v] = sum;
       }
       for (std::size_t slot = 0; slot < sites_.size(); ++slot) {
-        const Site& site = sites_[slot];
+        const solve::Site& site = sites_[slot];
         if (site.component < 0) continue;
         double missed = wanted[slot * m + c];
         for (int q = 0; q < 3; ++q) missed -= site.vertex[q] >= 0 ? site.weight[q] * u[site.vertex[q]] : 0.0;
@@ -334,9 +336,9 @@ class UpdownSolver final : public SiteSolver {
     }
   }
 
-  std::shared_ptr<const Core> core_;
+  std::shared_ptr<const surface::Core> core_;
   double penalty_;
-  Vector<Site> sites_;  // by slot; component -1: not in use
+  Vector<solve::Site> sites_;  // by slot; component -1: not in use
   Vector<Index> count_;
   Vector<Index> position_{core_->memory.get()};
   mutable std::mutex mutex_;
@@ -354,10 +356,10 @@ class UpdownSolver final : public SiteSolver {
 
 void require_updown() {}
 
-std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core, double penalty) {
+std::shared_ptr<solve::SiteSolver> make_updown_solver(std::shared_ptr<const surface::Core> core, double penalty) {
   require_formed(*core);
   const std::shared_ptr<Memory> memory = core->memory;
   return make_owner_in<UpdownSolver>(memory, std::move(core), penalty);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::peers

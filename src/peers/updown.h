@@ -17,14 +17,14 @@
 #pragma once
 #include <memory>
 
-#include "engine/site_solver.h"
+#include "solve/site_solver.h"
 
-namespace hf_inner {
+namespace hf_inner::peers {
 
 // Throws HF_ERROR_UNSUPPORTED in builds without HF_WITH_GPL. Callers ask before they make a factor for the engine.
 void require_updown();
 
 // Throws what require_updown throws.
-std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core, double penalty);
+std::shared_ptr<solve::SiteSolver> make_updown_solver(std::shared_ptr<const surface::Core> core, double penalty);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::peers

@@ -5,11 +5,11 @@
 
 #include "base/index.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
-Apart::Apart(FluxSurface& surface, Memory& memory) : offset_(surface.component_count, Vec3(), memory) {
+Apart::Apart(remesh::FluxSurface& surface, Memory& memory) : offset_(surface.component_count, Vec3(), memory) {
   if (surface.component_count < 2) return;
-  Table<Vec3> low(surface.component_count, {HUGE_VAL, HUGE_VAL, HUGE_VAL}, memory),
+  remesh::Table<Vec3> low(surface.component_count, {HUGE_VAL, HUGE_VAL, HUGE_VAL}, memory),
       high(surface.component_count, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, memory);
   for (std::int32_t v = 0; v < surface.vertex_count(); ++v) {
     const Vec3 p = surface.position[v];
@@ -28,7 +28,7 @@ Apart::Apart(FluxSurface& surface, Memory& memory) : offset_(surface.component_c
     surface.position[v] = surface.position[v] + offset_[surface.component[v]];
 }
 
-Vec3 Apart::moved(const FluxSurface& surface, Vec3 place) const noexcept {
+Vec3 Apart::moved(const remesh::FluxSurface& surface, Vec3 place) const noexcept {
   if (offset_.size() < 2) return place;
   double least = HUGE_VAL;
   Vec3 offset;
@@ -42,10 +42,11 @@ Vec3 Apart::moved(const FluxSurface& surface, Vec3 place) const noexcept {
   return place + offset;
 }
 
-void Apart::bring_home(const FluxSurface& surface, const Mesh& mesh, QuadMesh& quads) const noexcept {
+void Apart::bring_home(const remesh::FluxSurface& surface, const mesh::Mesh& mesh,
+                       remesh::QuadMesh& quads) const noexcept {
   if (offset_.size() < 2) return;
   for (std::int32_t v = 0; v < quads.position.size(); ++v) {
-    const SurfacePoint& at_point = quads.location[v];
+    const remesh::SurfacePoint& at_point = quads.location[v];
     Vec3 place;
     for (int k = 0; k < 3; ++k) {
       const std::int32_t corner = surface.tail[3 * at_point.triangle + k];
@@ -55,4 +56,4 @@ void Apart::bring_home(const FluxSurface& surface, const Mesh& mesh, QuadMesh& q
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

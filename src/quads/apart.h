@@ -6,19 +6,19 @@
 #pragma once
 #include "remesh/quad_mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 class Apart {
  public:
   // Moves the positions of the surface. The first component stays where it is.
-  Apart(FluxSurface& surface, Memory& memory);
+  Apart(remesh::FluxSurface& surface, Memory& memory);
   // Returns where a place beside the surface as it was has gone: it moves with the nearest vertex.
-  Vec3 moved(const FluxSurface& surface, Vec3 place) const noexcept;
+  Vec3 moved(const remesh::FluxSurface& surface, Vec3 place) const noexcept;
   // Moves quads back to the surface as it was. Vertices that are exactly on it before are so afterwards.
-  void bring_home(const FluxSurface& surface, const Mesh& mesh, QuadMesh& quads) const noexcept;
+  void bring_home(const remesh::FluxSurface& surface, const mesh::Mesh& mesh, remesh::QuadMesh& quads) const noexcept;
 
  private:
-  Table<Vec3> offset_;  // by component
+  remesh::Table<Vec3> offset_;  // by component
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // A chord waits for the next round if its mean edge has become longer than this many times the one it was sorted by.
@@ -49,7 +49,7 @@ class Collapser {
         moved_(memory),
         joins_(memory),
         undo_(memory) {
-    Table<std::uint8_t> sides(q_.vertices.position.size(), 0, memory);
+    remesh::Table<std::uint8_t> sides(q_.vertices.position.size(), 0, memory);
     for (std::int32_t h = 0; h < q_.tail.size(); ++h) {
       if (!q_.feature[h] || (q_.twin[h] != none && q_.twin[h] < h)) continue;
       for (const std::int32_t v : {q_.tail[h], q_.head(h)})
@@ -75,7 +75,7 @@ class Collapser {
       changed = false;
       // Every chord by its first half-edge.
       list.clear();
-      Table<std::uint8_t> seen(q_.tail.size(), 0, memory_);
+      remesh::Table<std::uint8_t> seen(q_.tail.size(), 0, memory_);
       Poller poller;
       for (std::int32_t h = 0; h < q_.tail.size(); ++h) {
         poller.due();
@@ -109,7 +109,7 @@ class Collapser {
 
  private:
   void find_pieces() {
-    Table<std::int32_t> stack(memory_);
+    remesh::Table<std::int32_t> stack(memory_);
     for (std::int32_t f = 0; f < q_.quad_count(); ++f) {
       if (piece_[f] != none) continue;
       piece_[f] = size_.size();
@@ -132,8 +132,8 @@ class Collapser {
 
   // Vertices where a feature turns sharply.
   void bent_corners() {
-    Table<Vec3> before(corners_.size(), Vec3{}, memory_);
-    Table<std::uint8_t> has(corners_.size(), 0, memory_);
+    remesh::Table<Vec3> before(corners_.size(), Vec3{}, memory_);
+    remesh::Table<std::uint8_t> has(corners_.size(), 0, memory_);
     for (std::int32_t h = 0; h < q_.tail.size(); ++h) {
       if (!q_.feature[h] || (q_.twin[h] != none && q_.twin[h] < h)) continue;
       const std::int32_t ends[2] = {q_.tail[h], q_.head(h)};
@@ -196,7 +196,7 @@ class Collapser {
   bool plan() {
     // Three quads around a point are a triangle, which one quad is not.
     if (quads_ == 2 && size_[piece_[halves_[0] / 4]] == 3) return false;
-    const Table<std::uint8_t>&pinned = q_.vertices.pinned, &border = q_.vertices.border;
+    const remesh::Table<std::uint8_t>&pinned = q_.vertices.pinned, &border = q_.vertices.border;
     for (const std::int32_t h : halves_) {
       for (const std::int32_t v : {q_.tail[h], q_.head(h)}) {
         if (leader_[v] == none) {
@@ -211,7 +211,7 @@ class Collapser {
       if (q_.twin[h] != none && q_.twin[h] < h) continue;
       ++edges;
       const std::int32_t v = q_.tail[h], w = q_.head(h);
-      const bool held = pinned[v] != QuadMesh::free && pinned[w] != QuadMesh::free;
+      const bool held = pinned[v] != remesh::QuadMesh::free && pinned[w] != remesh::QuadMesh::free;
       if ((held && !q_.feature[h]) || (corners_[v] && corners_[w])) return false;
       if (border[v] && border[w] && q_.twin[h] != none) return false;
       const std::int32_t a = find(v), b = find(w);
@@ -412,9 +412,9 @@ class Collapser {
 
   void apply() {
     // The joins are done. Vertices of a class take the place of the best: a corner, a feature, a border, the middle.
-    QuadMesh& all = q_.vertices;
-    Table<Vec3> sum(memory_);
-    Table<std::int32_t> count(memory_);
+    remesh::QuadMesh& all = q_.vertices;
+    remesh::Table<Vec3> sum(memory_);
+    remesh::Table<std::int32_t> count(memory_);
     for (const std::int32_t v : classes_) {
       const std::int32_t c = find(v);
       if (place_[c] == none) {
@@ -425,9 +425,9 @@ class Collapser {
       sum[place_[c]] = sum[place_[c]] + all.position[v];
       ++count[place_[c]];
     }
-    Table<std::int32_t> best(sum.size(), none, memory_);
+    remesh::Table<std::int32_t> best(sum.size(), none, memory_);
     const auto rank = [&](std::int32_t v) {
-      return corners_[v] ? 3 : all.pinned[v] != QuadMesh::free ? 2 : all.border[v] ? 1 : 0;
+      return corners_[v] ? 3 : all.pinned[v] != remesh::QuadMesh::free ? 2 : all.border[v] ? 1 : 0;
     };
     const auto away = [&](std::int32_t v, std::int32_t i) { return norm(all.position[v] - (1.0 / count[i]) * sum[i]); };
     for (const std::int32_t v : classes_) {
@@ -466,8 +466,8 @@ class Collapser {
   }
   // A hub keeps its number and gets the data of the best vertex of its class. The half-edges of the others get its
   // number.
-  void keep_hubs(Table<std::int32_t>& best) {
-    QuadMesh& all = q_.vertices;
+  void keep_hubs(remesh::Table<std::int32_t>& best) {
+    remesh::QuadMesh& all = q_.vertices;
     for (const std::int32_t h : moved_) q_.tail[h] = hub_[find(q_.tail[h])];
     for (const std::int32_t v : classes_) {
       const std::int32_t c = find(v), hub = hub_[c];
@@ -483,7 +483,7 @@ class Collapser {
     }
   }
   // Gives the whole fan of h its new vertex.
-  void rename(std::int32_t h, Table<std::int32_t>& best) {
+  void rename(std::int32_t h, remesh::Table<std::int32_t>& best) {
     const std::int32_t v = q_.tail[h];
     if (leader_[v] == none) return;
     std::int32_t& to = best[place_[find(v)]];
@@ -507,18 +507,19 @@ class Collapser {
   QuadComplex& q_;
   const std::int32_t most_walked_;  // quads at a vertex that is no hub
   Memory& memory_;
-  Table<std::uint8_t> dead_, crossed_;  // by quad; crossed_: one bit for every side that the chord crosses
-  Table<std::uint8_t> in_fan_;          // by half-edge
+  remesh::Table<std::uint8_t> dead_, crossed_;  // by quad; crossed_: one bit for every side that the chord crosses
+  remesh::Table<std::uint8_t> in_fan_;          // by half-edge
   // By vertex. Numbers of the classes of vertices that become one.
-  Table<std::int32_t> leader_, start_, place_;
-  Table<std::int32_t> hub_, gaps_;  // by leader: the hub of the class; the gaps that the border makes in its fan
-  Table<std::int32_t> quads_at_;
-  Table<std::int32_t> piece_, size_;         // by quad, its piece; by piece, the quads that are left
-  Table<std::uint8_t> corners_, at_border_;  // whether it must stay; whether it lies on a border
-  Table<std::int32_t> halves_, classes_, fan_, neighbours_;
-  Table<std::int32_t> moved_;  // half-edges that leave vertices which join a hub
-  Table<Join> joins_;
-  Table<Undo> undo_;
+  remesh::Table<std::int32_t> leader_, start_, place_;
+  remesh::Table<std::int32_t> hub_,
+      gaps_;  // by leader: the hub of the class; the gaps that the border makes in its fan
+  remesh::Table<std::int32_t> quads_at_;
+  remesh::Table<std::int32_t> piece_, size_;         // by quad, its piece; by piece, the quads that are left
+  remesh::Table<std::uint8_t> corners_, at_border_;  // whether it must stay; whether it lies on a border
+  remesh::Table<std::int32_t> halves_, classes_, fan_, neighbours_;
+  remesh::Table<std::int32_t> moved_;  // half-edges that leave vertices which join a hub
+  remesh::Table<Join> joins_;
+  remesh::Table<Undo> undo_;
   std::int32_t quads_ = 0;  // of the chord
 };
 
@@ -529,4 +530,4 @@ std::int32_t collapse_chords(QuadComplex& quads, std::int32_t wanted, std::int32
   return quads.quad_count() > wanted ? Collapser(quads, hub, memory).run(wanted, least) : 0;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -6,7 +6,7 @@
 #pragma once
 #include "quads/quad_complex.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // A vertex of more quads than this is a hub. A chord whose edges end at a hub is checked from their other ends, so its
 // cost depends on the faces there and not on the faces around the hub. Two hubs never become one. Less keeps more
@@ -20,4 +20,4 @@ constexpr std::int32_t hub_quads = 256;
 std::int32_t collapse_chords(QuadComplex& quads, std::int32_t wanted, std::int32_t least, Memory& memory,
                              std::int32_t hub = hub_quads);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

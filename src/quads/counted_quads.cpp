@@ -6,7 +6,7 @@
 #include "quads/numbers.h"
 #include "remesh/coarsen.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // Where pieces between the lines are no discs, the next edge length is this share of the one before: smaller takes less
@@ -31,17 +31,18 @@ constexpr std::int32_t count_tries = 4;
 // instead of 1.1 % off.
 constexpr double few_quads = 24;
 
-double area_of(const FluxSurface& surface, std::int32_t t) {
+double area_of(const remesh::FluxSurface& surface, std::int32_t t) {
   const Vec3 a = surface.position[surface.tail[3 * t]];
   return 0.5 *
          norm(cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a));
 }
 
 // The quads of `a` in the components with first[component], and the quads of `b` in the others.
-QuadComplex joined(const QuadComplex& a, const Table<std::int32_t>& component_a, const Table<std::uint8_t>& first,
-                   const QuadComplex& b, const Table<std::int32_t>& component_b, Memory& memory) {
+QuadComplex joined(const QuadComplex& a, const remesh::Table<std::int32_t>& component_a,
+                   const remesh::Table<std::uint8_t>& first, const QuadComplex& b,
+                   const remesh::Table<std::int32_t>& component_b, Memory& memory) {
   QuadComplex all(memory);
-  Table<std::uint8_t> take(memory);
+  remesh::Table<std::uint8_t> take(memory);
   for (const std::int32_t c : component_a) take.push_back(first[c]);
   all.append(a, take, memory);
   take.clear();
@@ -51,7 +52,7 @@ QuadComplex joined(const QuadComplex& a, const Table<std::int32_t>& component_a,
 }
 }  // namespace
 
-double area_of(const FluxSurface& surface) {
+double area_of(const remesh::FluxSurface& surface) {
   double sum = 0;
   for (std::int32_t t = 0; t < surface.real_triangles; ++t) sum += area_of(surface, t);
   return sum;
@@ -59,8 +60,8 @@ double area_of(const FluxSurface& surface) {
 
 double miss_of(double ratio) noexcept { return std::max(ratio, 1 / std::max(ratio, 1e-9)) - 1; }
 
-QuadSource::QuadSource(const FluxSurface& surface, GridMapper& mapper, const Table<std::uint8_t>& features, bool once,
-                       bool strict, Memory& memory)
+QuadSource::QuadSource(const remesh::FluxSurface& surface, GridMapper& mapper,
+                       const remesh::Table<std::uint8_t>& features, bool once, bool strict, Memory& memory)
     : surface_(surface),
       mapper_(mapper),
       features_(features),
@@ -102,7 +103,7 @@ QuadSource::Found QuadSource::find(double length, bool untangled, FieldQuadRepor
   // Lines that run to and fro in a fold can be the only ones around a thin part.
   FieldQuadReport unused;
   const Found other = find_in_map(length, !untangled, unused);
-  Table<std::uint8_t> keep(found.sound.size(), 0, memory_);
+  remesh::Table<std::uint8_t> keep(found.sound.size(), 0, memory_);
   for (std::int32_t c = 0; c < keep.size(); ++c) keep[c] = found.sound[c] || !other.sound[c];
   found.quads = joined(found.quads, found.component, keep, other.quads, other.component, memory_);
   found.component = components_of(surface_, found.quads, memory_);
@@ -113,10 +114,10 @@ QuadSource::Found QuadSource::find(double length, bool untangled, FieldQuadRepor
 QuadComplex QuadSource::make(double length, bool untangled, FieldQuadReport& report) {
   report.substitutes = 0;
   Found found = find(length, untangled, report);
-  Table<std::uint8_t>& sound = found.sound;
-  Table<std::uint8_t> missing(sound.size(), 0, memory_), small(sound.size(), 0, memory_);
+  remesh::Table<std::uint8_t>& sound = found.sound;
+  remesh::Table<std::uint8_t> missing(sound.size(), 0, memory_), small(sound.size(), 0, memory_);
   // A component of one quad in the map gets quads with the corners of its outline.
-  Table<std::int32_t> count(sound.size(), 0, memory_);
+  remesh::Table<std::int32_t> count(sound.size(), 0, memory_);
   for (const std::int32_t c : found.component) ++count[c];
   for (std::int32_t c = 0; c < sound.size(); ++c)
     small[c] =
@@ -138,14 +139,15 @@ QuadComplex QuadSource::make(double length, bool untangled, FieldQuadReport& rep
                 memory_);
 }
 
-void QuadSource::substitute(double length, bool untangled, Table<std::uint8_t>& missing, FieldQuadReport& report) {
+void QuadSource::substitute(double length, bool untangled, remesh::Table<std::uint8_t>& missing,
+                            FieldQuadReport& report) {
   const std::int32_t tries = mapper_.left_out() > 0 ? tries_without_lines : most_tries;
   for (std::int32_t i = 0; i < tries; ++i) {
     length *= shorter;
     FieldQuadReport unused;
     const Found found = find(length, untangled, unused);
     ++report.tries;
-    Table<std::uint8_t> take(memory_);
+    remesh::Table<std::uint8_t> take(memory_);
     for (const std::int32_t c : found.component) take.push_back(missing[c] && found.sound[c]);
     substitute_.append(found.quads, take, memory_);
     bool open = false;
@@ -168,7 +170,7 @@ void QuadSource::substitute(double length, bool untangled, Table<std::uint8_t>& 
   }
 }
 
-QuadMesh CountedQuads::make(bool untangled, FieldQuadReport& made) {
+remesh::QuadMesh CountedQuads::make(bool untangled, FieldQuadReport& made) {
   QuadComplex quads(memory_);
   double length = edge_length_, best = -1;
   for (std::int32_t round = 0; round < count_tries; ++round) {
@@ -188,22 +190,22 @@ QuadMesh CountedQuads::make(bool untangled, FieldQuadReport& made) {
   return coarsened(quads, by_count_ || made.substitutes > 0, made);
 }
 
-QuadMesh CountedQuads::make_finer(double share, bool untangled, FieldQuadReport& made) {
+remesh::QuadMesh CountedQuads::make_finer(double share, bool untangled, FieldQuadReport& made) {
   QuadComplex quads = source_.make(share * length_, untangled, made);
   made.edge_length = share * length_;
   return coarsened(quads, true, made);
 }
 
-QuadMesh CountedQuads::coarsened(QuadComplex& quads, bool limited, FieldQuadReport& made) {
+remesh::QuadMesh CountedQuads::coarsened(QuadComplex& quads, bool limited, FieldQuadReport& made) {
   const std::int32_t most = static_cast<std::int32_t>((1 + faces_error) * wanted_);
   if (limited)
     made.chords = collapse_chords(quads, most, static_cast<std::int32_t>((1 - faces_error) * wanted_), memory_);
-  QuadMesh mesh = quads.mesh(memory_);
+  remesh::QuadMesh mesh = quads.mesh(memory_);
   if (limited) {
     if (made.substitutes > 0 || mesh.face_count() > most) made.edge_length = edge_length_;
-    collapse_to_count(surface_, mesh, most, edge_length_, memory_);
+    remesh::collapse_to_count(surface_, mesh, most, edge_length_, memory_);
   }
   return mesh;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

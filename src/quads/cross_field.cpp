@@ -5,7 +5,7 @@
 
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // Curvatures that differ by this many radians over a length of sqrt(area) count half. Smaller: flat parts follow noise.
@@ -18,7 +18,7 @@ constexpr double least_wish = 1e-3;
 // 5 % fewer irregular vertices in 15 runs, and larger distances.
 constexpr Index smooth_rounds = 8;
 
-Vec3 triangle_normal(const Mesh& mesh, Index t) noexcept {
+Vec3 triangle_normal(const mesh::Mesh& mesh, Index t) noexcept {
   const Index* c = mesh.triangle(t);
   const Vec3 a = mesh.positions[at(c[0])];
   return unit_vector(cross(mesh.positions[at(c[1])] - a, mesh.positions[at(c[2])] - a));
@@ -33,9 +33,9 @@ double entry(const SymmetricMatrix& matrix, Index row, Index column) {
 
 }  // namespace
 
-Vector<Complex> curvature_crosses(const Core& core, const Connection& connection, Index passes) {
-  const Mesh& mesh = core.mesh;
-  const Topology& topology = core.topology();
+Vector<Complex> curvature_crosses(const surface::Core& core, const field::Connection& connection, Index passes) {
+  const mesh::Mesh& mesh = core.mesh;
+  const mesh::Topology& topology = core.topology();
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size());
   // difference: the difference of the principal curvatures, as a number of the second degree. sum: their sum.
@@ -78,7 +78,7 @@ Vector<Complex> curvature_crosses(const Core& core, const Connection& connection
       for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
         const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
         const double area = core.areas[at(w)];
-        total += area * difference[at(w)] * at_angle(1.0, 2 * connection.turn(topology, e, v));
+        total += area * difference[at(w)] * field::at_angle(1.0, 2 * connection.turn(topology, e, v));
         total_sum += area * sum[at(w)];
         weight += area;
       }
@@ -90,7 +90,7 @@ Vector<Complex> curvature_crosses(const Core& core, const Connection& connection
   }
   const double size = std::sqrt(whole);
   for (std::size_t v = 0; v < n; ++v) {
-    const double amount = length_of(difference[v]);
+    const double amount = field::length_of(difference[v]);
     if (!(amount > 0) || !std::isfinite(amount)) {
       next[v] = 0;
       continue;
@@ -103,9 +103,9 @@ Vector<Complex> curvature_crosses(const Core& core, const Connection& connection
   return next;
 }
 
-CrossSmoother::CrossSmoother(const DirectionMatrix& system, double radius)
+CrossSmoother::CrossSmoother(const field::DirectionMatrix& system, double radius)
     : system_(system), radius_(radius), matrix_(*system.core->memory) {
-  const Core& core = *system.core;
+  const surface::Core& core = *system.core;
   const double t = 1 / (radius * radius);
   matrix_.column_start.assign(system.matrix.column_start.begin(), system.matrix.column_start.end());
   matrix_.row.assign(system.matrix.row.begin(), system.matrix.row.end());
@@ -119,8 +119,8 @@ CrossSmoother::CrossSmoother(const DirectionMatrix& system, double radius)
 
 Vector<Complex> CrossSmoother::smooth(Span<const Complex> wish, Span<const HardCross> hard,
                                       Span<const SeenCross> seen) {
-  const DirectionMatrix& system = system_;
-  const Core& core = *system.core;
+  const field::DirectionMatrix& system = system_;
+  const surface::Core& core = *system.core;
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size());
   const double t = 1 / (radius_ * radius_);
@@ -132,7 +132,7 @@ Vector<Complex> CrossSmoother::smooth(Span<const Complex> wish, Span<const HardC
     ~Forget() { solver.forget(); }
   } forget{solver};
   double most = 0;
-  for (const Complex& w : wish) most = std::max(most, length_of(w));
+  for (const Complex& w : wish) most = std::max(most, field::length_of(w));
   Vector<Complex> field(n, Complex(0, 0), &memory), target(wish.begin(), wish.end(), &memory);
   if (most < least_wish && hard.empty()) {
     for (Complex& w : target) w += Complex(1, 0);
@@ -164,10 +164,10 @@ Vector<Complex> CrossSmoother::smooth(Span<const Complex> wish, Span<const HardC
     solver.solve(x.data());
     for (Index v = 0; v < core.size(); ++v) {
       field[at(v)] = Complex(x[at(system.unknown(v, 0))], x[at(system.unknown(v, 1))]);
-      target[at(v)] = wish[at(v)] + std::max(0.0, 1 - length_of(wish[at(v)])) * unit_of(field[at(v)], 0);
+      target[at(v)] = wish[at(v)] + std::max(0.0, 1 - field::length_of(wish[at(v)])) * unit_of(field[at(v)], 0);
     }
   }
   return field;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -13,12 +13,13 @@
 #include "field/direction_system.h"
 #include "quads/definite_system.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // Returns the wished crosses by vertex: the principal directions to the fourth degree. The length is 0 to 1: how much
 // the two curvatures differ. The curvature tensor is the sum over edges (Cohen-Steiner and Morvan 2003), evened out
 // over `passes` rings. connection: of the vertices.
-Vector<std::complex<double>> curvature_crosses(const Core& core, const Connection& connection, std::int32_t passes);
+Vector<std::complex<double>> curvature_crosses(const surface::Core& core, const field::Connection& connection,
+                                               std::int32_t passes);
 
 // A cross that does not give way.
 struct HardCross {
@@ -36,17 +37,17 @@ struct SeenCross {
 class CrossSmoother {
  public:
   // system: of degree 4; it must outlive *this. radius: inner units. Throws what Factor::make throws.
-  CrossSmoother(const DirectionMatrix& system, double radius);
+  CrossSmoother(const field::DirectionMatrix& system, double radius);
   double radius() const noexcept { return radius_; }
   // Returns the crosses by inner vertex, to the fourth degree. wish: by inner vertex.
   Vector<std::complex<double>> smooth(Span<const std::complex<double>> wish, Span<const HardCross> hard,
                                       Span<const SeenCross> seen = {});
 
  private:
-  const DirectionMatrix& system_;
+  const field::DirectionMatrix& system_;
   double radius_;
   SymmetricMatrix matrix_;
   std::optional<DefiniteSystem> solver_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "quads/other_core.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // A surface is cut if at least this share of its area lies in triangles with an edge of more than so many edges of
@@ -25,7 +25,7 @@ constexpr double most_facet = 4;
 // change none of mpi_triang, eight, double-torus and oblong at 5,000 quads.
 constexpr double most_cut = 16;
 
-double longest_edge(const Core& core) noexcept {
+double longest_edge(const surface::Core& core) noexcept {
   double longest = 0;
   for (Index e = 0; e < core.topology().edge_count(); ++e) {
     longest = std::max(longest, norm(core.mesh.positions[at(core.topology().second(e))] -
@@ -34,7 +34,7 @@ double longest_edge(const Core& core) noexcept {
   return longest;
 }
 
-double mean_edge(const Core& core) noexcept {
+double mean_edge(const surface::Core& core) noexcept {
   double sum = 0;
   for (Index e = 0; e < core.topology().edge_count(); ++e) {
     sum += norm(core.mesh.positions[at(core.topology().second(e))] - core.mesh.positions[at(core.topology().first(e))]);
@@ -42,16 +42,16 @@ double mean_edge(const Core& core) noexcept {
   return sum / std::max(core.topology().edge_count(), 1);
 }
 
-Index most_triangles(const Core& core, double quads) noexcept {
+Index most_triangles(const surface::Core& core, double quads) noexcept {
   const double most = core.mesh.triangle_count() + most_cut * quads;
-  return static_cast<Index>(std::min<double>(most, most_elements));
+  return static_cast<Index>(std::min<double>(most, mesh::most_elements));
 }
 
 Vec3 between(const Vector<Vec3>& position, Index a, Index b) noexcept {
   return 0.5 * (position[at(a)] + position[at(b)]);
 }
 
-CutMesh::Middle edge_of(Index a, Index b) noexcept { return {std::min(a, b), std::max(a, b), Mesh::none}; }
+CutMesh::Middle edge_of(Index a, Index b) noexcept { return {std::min(a, b), std::max(a, b), mesh::Mesh::none}; }
 
 bool before(const CutMesh::Middle& x, const CutMesh::Middle& y) noexcept { return x.a != y.a ? x.a < y.a : x.b < y.b; }
 
@@ -59,13 +59,13 @@ bool before(const CutMesh::Middle& x, const CutMesh::Middle& y) noexcept { retur
 Index find_middle(const Vector<CutMesh::Middle>& list, Index a, Index b) noexcept {
   const CutMesh::Middle edge = edge_of(a, b);
   const auto found = std::lower_bound(list.begin(), list.end(), edge, before);
-  return found == list.end() || before(edge, *found) ? Mesh::none : found->vertex;
+  return found == list.end() || before(edge, *found) ? mesh::Mesh::none : found->vertex;
 }
 
 }  // namespace
 
-double coarse_part(const Core& core, double length) noexcept {
-  const Mesh& mesh = core.mesh;
+double coarse_part(const surface::Core& core, double length) noexcept {
+  const mesh::Mesh& mesh = core.mesh;
   double coarse = 0, all = 0;
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     const Index* c = mesh.triangle(t);
@@ -81,7 +81,7 @@ bool is_coarse(double coarse_part) noexcept { return coarse_part >= coarse_share
 
 Index CutMesh::middle_of(Index a, Index b) const noexcept { return find_middle(middle, a, b); }
 
-CutMesh CutMesh::make(const Core& core, double longest, Index most) {
+CutMesh CutMesh::make(const surface::Core& core, double longest, Index most) {
   Memory& memory = *core.memory;
   CutMesh out(memory);
   out.position.assign(core.mesh.positions.begin(), core.mesh.positions.end());
@@ -137,8 +137,8 @@ bool CutMesh::cut(double longest, Index most, Memory& memory) {
     }
     for (int k = 0; k < 3; ++k) {
       const int next = (k + 1) % 3;
-      place[3 + k] = is_long(place[k], place[next]) ? find_middle(cuts, place[k], place[next]) : Mesh::none;
-      if (place[3 + k] == Mesh::none)
+      place[3 + k] = is_long(place[k], place[next]) ? find_middle(cuts, place[k], place[next]) : mesh::Mesh::none;
+      if (place[3 + k] == mesh::Mesh::none)
         whole = k;
       else {
         ++count;
@@ -190,24 +190,24 @@ bool CutMesh::cut(double longest, Index most, Memory& memory) {
 
 namespace {
 
-CutMesh cut_checked(const Core& whole, double length, double quads) {
+CutMesh cut_checked(const surface::Core& whole, double length, double quads) {
   // Refuses a mesh that is no surface. A cut one has more edges, so its faults are a smaller share.
-  FluxSurface::make(whole.mesh, whole.topology(), *whole.memory);
+  remesh::FluxSurface::make(whole.mesh, whole.topology(), *whole.memory);
   return CutMesh::make(whole, cut_length * length, most_triangles(whole, quads));
 }
 
 }  // namespace
 
-CutBase::CutBase(const Core& whole, double given_length, double given_quads)
+CutBase::CutBase(const surface::Core& whole, double given_length, double given_quads)
     : length(given_length),
       quads(given_quads),
       facet(std::min(mean_edge(whole), most_facet * length)),
       cut(cut_checked(whole, length, quads)),
       core(core_like(whole, cut.position, cut.corner)) {}
 
-SurfacePoint CutBase::in_whole(const SurfacePoint& point) const noexcept {
+remesh::SurfacePoint CutBase::in_whole(const remesh::SurfacePoint& point) const noexcept {
   const std::size_t t = at(point.triangle);
-  SurfacePoint out;
+  remesh::SurfacePoint out;
   out.triangle = cut.parent[t];
   for (std::size_t j = 0; j < 3; ++j) {
     // The corner of the cut triangle that is corner j in the core.
@@ -218,4 +218,4 @@ SurfacePoint CutBase::in_whole(const SurfacePoint& point) const noexcept {
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -8,10 +8,10 @@
 #pragma once
 #include "quads/field_quads.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // Returns the share of a surface that lies in triangles longer than several quads. length: of their edges.
-double coarse_part(const Core& core, double length) noexcept;
+double coarse_part(const surface::Core& core, double length) noexcept;
 // Whether such triangles make up much of a surface.
 bool is_coarse(double coarse_part) noexcept;
 
@@ -19,12 +19,12 @@ struct CutMesh {
   explicit CutMesh(Memory& memory)
       : position(&memory), corner(&memory), parent(&memory), weight(&memory), middle(&memory) {}
   // No edge of the result is longer than `longest`, unless it would have more than `most` triangles.
-  static CutMesh make(const Core& core, double longest, Index most);
+  static CutMesh make(const surface::Core& core, double longest, Index most);
   // Calls use(a, b) for the edges that an edge of the core became.
   template <class Use>
   void for_pieces(Index a, Index b, Use&& use) const {
     const Index m = middle_of(a, b);
-    if (m == Mesh::none) return use(a, b);
+    if (m == mesh::Mesh::none) return use(a, b);
     for_pieces(a, m, use);
     for_pieces(m, b, use);
   }
@@ -50,15 +50,15 @@ struct CutMesh {
 // The data that quads of one surface share where it is cut for one edge length.
 struct CutBase {
   // quads: how many are wanted; it bounds the triangles.
-  CutBase(const Core& whole, double length, double quads);
+  CutBase(const surface::Core& whole, double length, double quads);
   // The point of `whole` that a point of `core` is. Weights belong to the corners of their meshes.
-  SurfacePoint in_whole(const SurfacePoint& point) const noexcept;
+  remesh::SurfacePoint in_whole(const remesh::SurfacePoint& point) const noexcept;
 
   double length, quads;
   double facet;  // of the options for quads of `core`; inner units of `whole`
   CutMesh cut;
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   QuadKeeper kept;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

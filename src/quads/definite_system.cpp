@@ -4,10 +4,10 @@
 
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
-DefiniteSystem::DefiniteSystem(const SymmetricMatrix& matrix, std::shared_ptr<const Factor> factor, Memory& memory,
-                               JobRunner& jobs)
+DefiniteSystem::DefiniteSystem(const SymmetricMatrix& matrix, std::shared_ptr<const factor::Factor> factor,
+                               Memory& memory, JobRunner& jobs)
     : matrix_(matrix),
       factor_(std::move(factor)),
       memory_(memory),
@@ -27,7 +27,7 @@ DefiniteSystem::DefiniteSystem(const SymmetricMatrix& matrix, std::shared_ptr<co
 }
 
 void DefiniteSystem::clear() {
-  PinnedOperator a;
+  solve::PinnedOperator a;
   a.matrix = &matrix_;
   a.factor = factor_.get();
   a.pins = Span<const Index>(&pin_, 1);
@@ -58,12 +58,12 @@ void DefiniteSystem::forget() noexcept {
 
 void DefiniteSystem::fix(Span<const Index> unknowns, Span<const double> values) {
   Vector<Index> slots(&memory_);
-  Vector<Site> sites(&memory_);
+  Vector<solve::Site> sites(&memory_);
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     slots.push_back(static_cast<Index>(fixed_.size() + i));
-    sites.push_back(Site::at_unknown(unknowns[i], 0));
+    sites.push_back(solve::Site::at_unknown(unknowns[i], 0));
   }
-  SiteEdit edit;
+  solve::SiteEdit edit;
   edit.add = slots;
   edit.sites = sites;
   system_->edit(edit);
@@ -83,7 +83,7 @@ void DefiniteSystem::solve_at(Span<const Index> unknowns, double* out) const {
   if (fixed_.empty()) return;
   const Vector<double> values = missing();
   Vector<double> z(plain_.size(), 0.0, &memory_);
-  ConstraintSystem::Answer answer(memory_);
+  solve::ConstraintSystem::Answer answer(memory_);
   if (system_->state().base) {
     system_->sweep(values.data(), 1, 0, 1, answer, z.data());
   } else {
@@ -101,7 +101,7 @@ void DefiniteSystem::solve(double* x) const {
   if (fixed_.empty()) return;
   const Vector<double> values = missing();
   Vector<double> z(plain_.size(), 0.0, &memory_);
-  ConstraintSystem::Answer answer(memory_);
+  solve::ConstraintSystem::Answer answer(memory_);
   system_->sweep(values.data(), 1, 0, 1, answer, z.data());
   const Span<const Index> position = system_->factor().position();
   for (std::size_t i = 0; i < plain_.size(); ++i) x[i] += z[at(position[i])];
@@ -113,9 +113,9 @@ Vector<double> DefiniteSystem::inverse_at(Span<const Index> unknowns) const {
   Vector<Index> start(&memory_), group(n, &memory_), column(n, &memory_);
   Vector<double> ones(n, 1.0, &memory_);
   for (std::size_t i = 0; i <= n; ++i) start.push_back(static_cast<Index>(i));
-  Vector<std::shared_ptr<const PathGroup>> groups(&memory_);
+  Vector<std::shared_ptr<const factor::PathGroup>> groups(&memory_);
   factor_->solve_paths({start, unknowns, ones}, memory_, jobs_, groups, group, column);
-  constexpr Index side = PathGroup::capacity;
+  constexpr Index side = factor::PathGroup::capacity;
   Vector<double> out(lower_row(n), 0.0, &memory_), tile(at(side) * at(side), &memory_);
   Vector<Index> member(groups.size() * at(side), -1, &memory_);
   for (std::size_t i = 0; i < n; ++i) member[at(group[i]) * at(side) + at(column[i])] = static_cast<Index>(i);
@@ -135,4 +135,4 @@ Vector<double> DefiniteSystem::inverse_at(Span<const Index> unknowns) const {
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -7,9 +7,9 @@
 #pragma once
 #include <optional>
 
-#include "engine/constraint_system.h"
+#include "solve/constraint_system.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // Where row i begins in a lower triangle that is kept row after row.
 inline std::size_t lower_row(std::size_t i) noexcept { return i * (i + 1) / 2; }
@@ -17,7 +17,8 @@ inline std::size_t lower_row(std::size_t i) noexcept { return i * (i + 1) / 2; }
 class DefiniteSystem {
  public:
   // matrix: K, which must outlive *this. factor: the factor of K.
-  DefiniteSystem(const SymmetricMatrix& matrix, std::shared_ptr<const Factor> factor, Memory& memory, JobRunner& jobs);
+  DefiniteSystem(const SymmetricMatrix& matrix, std::shared_ptr<const factor::Factor> factor, Memory& memory,
+                 JobRunner& jobs);
   DefiniteSystem(const DefiniteSystem&) = delete;
   DefiniteSystem& operator=(const DefiniteSystem&) = delete;
 
@@ -36,7 +37,7 @@ class DefiniteSystem {
   // Returns the rows and columns of K^-1 at the unknowns, without given values: the lower triangle, row after row.
   Vector<double> inverse_at(Span<const Index> unknowns) const;
 
-  ConstraintCounts counts() const noexcept { return system_->counts(); }
+  solve::ConstraintCounts counts() const noexcept { return system_->counts(); }
   Index fixed_count() const noexcept { return static_cast<Index>(values_.size()); }
 
  private:
@@ -44,17 +45,17 @@ class DefiniteSystem {
   Vector<double> missing() const;
 
   const SymmetricMatrix& matrix_;
-  std::shared_ptr<const Factor> factor_;
+  std::shared_ptr<const factor::Factor> factor_;
   Memory& memory_;
   JobRunner& jobs_;
   Index pin_ = -1;  // none: K is definite by itself
   double weight_ = 1;
-  PinPaths paths_;
-  std::optional<ConstraintSystem> system_;
+  solve::PinPaths paths_;
+  std::optional<solve::ConstraintSystem> system_;
   Vector<double> plain_;  // K^-1 right
   double scale_ = 1;
   Vector<Index> fixed_;    // by site
   Vector<double> values_;  // by site
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -8,13 +8,13 @@
 #include "base/progress.h"
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 class Extractor {
  public:
-  Extractor(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features, std::int32_t& backward,
-            Memory& memory)
+  Extractor(const remesh::FluxSurface& surface, const GridMap& map, const remesh::Table<std::uint8_t>& features,
+            std::int32_t& backward, Memory& memory)
       : s_(surface),
         map_(map),
         features_(features),
@@ -63,11 +63,11 @@ class Extractor {
   std::int32_t piece(std::int32_t t, std::int32_t i, std::int32_t j, int kind) const noexcept {
     return 2 * number(t, i, j) + kind;
   }
-  static std::int32_t root(Table<std::int32_t>& parent, std::int32_t a) noexcept {
+  static std::int32_t root(remesh::Table<std::int32_t>& parent, std::int32_t a) noexcept {
     while (parent[a] != a) a = parent[a] = parent[parent[a]];
     return a;
   }
-  static void unite(Table<std::int32_t>& parent, std::int32_t a, std::int32_t b) noexcept {
+  static void unite(remesh::Table<std::int32_t>& parent, std::int32_t a, std::int32_t b) noexcept {
     a = root(parent, a);
     b = root(parent, b);
     if (a != b) parent[std::max(a, b)] = std::min(a, b);
@@ -85,7 +85,7 @@ class Extractor {
       poller.due();
       line_start_[h] = lines_.size();
       if (!owns(h)) continue;
-      const std::int32_t g = FluxSurface::next(h);
+      const std::int32_t g = remesh::FluxSurface::next(h);
       const std::int64_t du = map_.u[g] - map_.u[h], dv = map_.v[g] - map_.v[h], wu = std::llabs(du),
                          wv = std::llabs(dv);
       std::int32_t i = cell_of(map_.u[h]), j = cell_of(map_.v[h]);
@@ -112,7 +112,7 @@ class Extractor {
   void make_cells() {
     cells_.assign(s_.real_triangles, Cells{0, 0, 0});
     std::int64_t total = 0;
-    Table<std::int32_t> low(memory_), high(memory_);  // of the touched cells, by column of the triangle
+    remesh::Table<std::int32_t> low(memory_), high(memory_);  // of the touched cells, by column of the triangle
     Poller poller;
     for (std::int32_t t = 0; t < s_.real_triangles; ++t) {
       poller.due();
@@ -147,7 +147,7 @@ class Extractor {
   // (i, j), and i (line 0) or j (line 1) changes by `step`. Then calls end(i, j).
   template <class Work, class End>
   void walk(std::int32_t h, Work&& work, End&& end) const {
-    const std::int32_t g = FluxSurface::next(h);
+    const std::int32_t g = remesh::FluxSurface::next(h);
     const bool own = owns(h);
     const std::int32_t owner = own ? h : s_.twin[h];
     std::int32_t i = cell_of(map_.u[h]), j = cell_of(map_.v[h]);
@@ -169,21 +169,23 @@ class Extractor {
   }
   bool is_odd(std::int32_t h) const noexcept {
     const std::int32_t g = s_.twin[h];
-    const std::int64_t du = map_.u[FluxSurface::next(h)] - map_.u[h], dv = map_.v[FluxSurface::next(h)] - map_.v[h],
-                       eu = map_.u[g] - map_.u[FluxSurface::next(g)], ev = map_.v[g] - map_.v[FluxSurface::next(g)];
+    const std::int64_t du = map_.u[remesh::FluxSurface::next(h)] - map_.u[h],
+                       dv = map_.v[remesh::FluxSurface::next(h)] - map_.v[h],
+                       eu = map_.u[g] - map_.u[remesh::FluxSurface::next(g)],
+                       ev = map_.v[g] - map_.v[remesh::FluxSurface::next(g)];
     // Without a turn or with a half turn, the vectors are (u, v) and +-(u, v). If both fit, so does either order.
     return !((du == eu && dv == ev) || (du == -eu && dv == -ev));
   }
 
   // Makes cells of neighbouring triangles one where they touch, and the pieces of lines that meet there.
   void join_cells() {
-    Table<std::int32_t> mine(memory_), other(memory_), my_pieces(memory_), other_pieces(memory_);
+    remesh::Table<std::int32_t> mine(memory_), other(memory_), my_pieces(memory_), other_pieces(memory_);
     Poller poller;
     for (std::int32_t h = 0; h < 3 * s_.real_triangles; ++h) {
       poller.due();
       const std::int32_t g = s_.twin[h];
       if (!owns(h)) continue;
-      const auto list = [&](std::int32_t half, Table<std::int32_t>& out, Table<std::int32_t>& pieces) {
+      const auto list = [&](std::int32_t half, remesh::Table<std::int32_t>& out, remesh::Table<std::int32_t>& pieces) {
         out.clear();
         pieces.clear();
         walk(
@@ -195,7 +197,8 @@ class Extractor {
             },
             [&](std::int32_t i, std::int32_t j) {
               out.push_back(number(half / 3, i, j));
-              if (i != cell_of(map_.u[FluxSurface::next(half)]) || j != cell_of(map_.v[FluxSurface::next(half)]))
+              if (i != cell_of(map_.u[remesh::FluxSurface::next(half)]) ||
+                  j != cell_of(map_.v[remesh::FluxSurface::next(half)]))
                 fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "the two sides of a seam have different lines");
             });
       };
@@ -214,7 +217,7 @@ class Extractor {
   }
 
   void make_quads() {
-    Table<std::int32_t> up(memory_), down(memory_);
+    remesh::Table<std::int32_t> up(memory_), down(memory_);
     Poller poller;
     for (std::int32_t t = 0; t < s_.real_triangles; ++t) {
       poller.due();
@@ -252,7 +255,7 @@ class Extractor {
 
   // Finds a place for every cell: where the map has its whole numbers, or else the middle of a piece of an edge.
   void place_vertices() {
-    place_.assign(parent_.size(), SurfacePoint{});
+    place_.assign(parent_.size(), remesh::SurfacePoint{});
     quality_.assign(parent_.size(), 0);
     on_border_.assign(parent_.size(), 0);
     Poller poller;
@@ -269,7 +272,7 @@ class Extractor {
         const std::int32_t column = cells.column + (i - cells.u), rows = first_[column + 1] - first_[column];
         for (std::int32_t j = low_[column]; j < low_[column] + rows; ++j) {
           const std::int64_t x = 2 * half_ * i, y = 2 * half_ * j;
-          SurfacePoint point;
+          remesh::SurfacePoint point;
           point.triangle = t;
           bool inside = true, on_feature = false;
           for (int k = 0; k < 3; ++k) {
@@ -289,7 +292,7 @@ class Extractor {
         const std::int64_t du = u[(k + 1) % 3] - u[k], dv = v[(k + 1) % 3] - v[k];
         double from = 0;
         const auto offer_piece = [&](std::int32_t i, std::int32_t j, double to) {
-          SurfacePoint point;
+          remesh::SurfacePoint point;
           point.triangle = t;
           const double middle = (from + to) / 2;
           point.weight[k] = 1 - middle;
@@ -310,7 +313,7 @@ class Extractor {
       }
     }
   }
-  void offer(std::int32_t cell, const SurfacePoint& point, std::uint8_t quality) {
+  void offer(std::int32_t cell, const remesh::SurfacePoint& point, std::uint8_t quality) {
     cell = find(cell);
     if (quality_[cell] >= quality) return;
     quality_[cell] = quality;
@@ -319,7 +322,7 @@ class Extractor {
 
   QuadComplex join_quads() {
     QuadComplex out(memory_);
-    Table<std::int32_t> vertex(parent_.size(), none, memory_), first(piece_parent_.size(), none, memory_);
+    remesh::Table<std::int32_t> vertex(parent_.size(), none, memory_), first(piece_parent_.size(), none, memory_);
     for (std::int32_t p = 0; p < feature_.size(); ++p) {
       if (feature_[p]) feature_[root(piece_parent_, p)] = 1;
     }
@@ -328,9 +331,9 @@ class Extractor {
     for (std::int32_t h = 0; h < corners_.size(); ++h) {
       const std::int32_t cell = corners_[h];
       if (vertex[cell] == none)
-        vertex[cell] = out.vertices.add_vertex(place_[cell], position_of(s_, place_[cell]),
-                                               quality_[cell] == at_feature_ ? QuadMesh::feature : QuadMesh::free,
-                                               on_border_[cell], 1);
+        vertex[cell] = out.vertices.add_vertex(
+            place_[cell], remesh::position_of(s_, place_[cell]),
+            quality_[cell] == at_feature_ ? remesh::QuadMesh::feature : remesh::QuadMesh::free, on_border_[cell], 1);
       out.tail.push_back(vertex[cell]);
       const std::int32_t p = root(piece_parent_, sides_[h]);
       out.feature[h] = feature_[p];
@@ -377,8 +380,8 @@ class Extractor {
   // quads at its two ends only. Two quads join them, (a, i, o, b) and (a, b, i', o'). The vertices a and b of the
   // region are at the ends. The vertices i and o are before and after them on the borders.
   bool bridge_walls(QuadComplex& out) {
-    Table<std::int32_t> of(memory_);  // regions
-    Table<std::int32_t> first(parent_.size(), none, memory_), second(first), count(parent_.size(), 0, memory_);
+    remesh::Table<std::int32_t> of(memory_);  // regions
+    remesh::Table<std::int32_t> first(parent_.size(), none, memory_), second(first), count(parent_.size(), 0, memory_);
     for (std::int32_t h = 0; h < corners_.size(); ++h) {
       if (out.twin[h] != none) continue;
       const std::int32_t c = root(region_, corners_[h]);
@@ -416,7 +419,7 @@ class Extractor {
       out.join(q + 7, leave[0]);
       out.feature[q + 1] = out.feature[q + 6] = 1;
       for (const std::int32_t h : sides) out.feature[h] = 0;
-      out.vertices.pinned[a] = out.vertices.pinned[b] = QuadMesh::free;
+      out.vertices.pinned[a] = out.vertices.pinned[b] = remesh::QuadMesh::free;
       any = true;
     }
     return any;
@@ -424,9 +427,9 @@ class Extractor {
 
   // Notes the borders that only lines without a crossing reach: the quads of the region close such a hole.
   void find_holes(QuadComplex& out) {
-    Table<std::int32_t> leaving(parent_.size(), none, memory_);  // by region
+    remesh::Table<std::int32_t> leaving(parent_.size(), none, memory_);  // by region
     for (std::int32_t h = 0; h < corners_.size(); ++h) leaving[root(region_, corners_[h])] = h;
-    Table<std::uint8_t> seen(3 * s_.real_triangles, 0, memory_), reached(seen);  // by half-edge
+    remesh::Table<std::uint8_t> seen(3 * s_.real_triangles, 0, memory_), reached(seen);  // by half-edge
     for (const BorderLine& line : border_lines_) reached[line.half] |= crossing_[root(piece_parent_, line.piece)];
     for (std::int32_t start = 0; start < seen.size(); ++start) {
       if (seen[start] || s_.is_real(s_.twin[start])) continue;
@@ -434,8 +437,8 @@ class Extractor {
       for (std::int32_t h = start; !seen[h];) {
         seen[h] = 1;
         crossed |= reached[h] != 0;
-        h = FluxSurface::next(h);
-        while (s_.is_real(s_.twin[h])) h = FluxSurface::next(s_.twin[h]);
+        h = remesh::FluxSurface::next(h);
+        while (s_.is_real(s_.twin[h])) h = remesh::FluxSurface::next(s_.twin[h]);
       }
       if (crossed) continue;
       const std::int32_t c = root(region_, number(start / 3, cell_of(map_.u[start]), cell_of(map_.v[start])));
@@ -445,33 +448,33 @@ class Extractor {
 
   // How good a place of a vertex is; the best is taken.
   static constexpr std::uint8_t at_edge_ = 1, at_turned_point_ = 2, at_point_ = 3, at_border_ = 4, at_feature_ = 5;
-  const FluxSurface& s_;
+  const remesh::FluxSurface& s_;
   const GridMap& map_;
-  const Table<std::uint8_t>& features_;
+  const remesh::Table<std::uint8_t>& features_;
   std::int32_t& backward_;
   Memory& memory_;
   const std::int64_t half_;
-  Table<Cells> cells_;
-  Table<std::int32_t> first_, low_;  // by column of a triangle: its first number and its lowest row
-  Table<std::int32_t> parent_, piece_parent_, line_start_;  // by cell, by piece of a line, by half-edge
-  Table<std::uint8_t> lines_;
-  Table<SurfacePoint> place_;
-  Table<std::uint8_t> quality_, on_border_;
-  Table<std::int32_t> corners_, sides_;  // cells and pieces of lines, four by quad
-  Table<std::uint8_t> feature_;          // by piece of a line: whether it crosses a feature edge
+  remesh::Table<Cells> cells_;
+  remesh::Table<std::int32_t> first_, low_;  // by column of a triangle: its first number and its lowest row
+  remesh::Table<std::int32_t> parent_, piece_parent_, line_start_;  // by cell, by piece of a line, by half-edge
+  remesh::Table<std::uint8_t> lines_;
+  remesh::Table<remesh::SurfacePoint> place_;
+  remesh::Table<std::uint8_t> quality_, on_border_;
+  remesh::Table<std::int32_t> corners_, sides_;  // cells and pieces of lines, four by quad
+  remesh::Table<std::uint8_t> feature_;          // by piece of a line: whether it crosses a feature edge
   struct BorderLine {
     std::int32_t half, piece;
   };
-  Table<BorderLine> border_lines_;  // where lines end at borders: the half-edge and the piece
-  Table<std::uint8_t> crossing_;    // by first piece of a line: whether it is a side of a quad
-  Table<std::int32_t> region_;      // by cell
+  remesh::Table<BorderLine> border_lines_;  // where lines end at borders: the half-edge and the piece
+  remesh::Table<std::uint8_t> crossing_;    // by first piece of a line: whether it is a side of a quad
+  remesh::Table<std::int32_t> region_;      // by cell
 };
 
 }  // namespace
 
-QuadComplex extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
-                          std::int32_t& backward, Memory& memory) {
+QuadComplex extract_quads(const remesh::FluxSurface& surface, const GridMap& map,
+                          const remesh::Table<std::uint8_t>& features, std::int32_t& backward, Memory& memory) {
   return Extractor(surface, map, features, backward, memory).run();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -15,12 +15,12 @@
 #include "quads/grid_map.h"
 #include "quads/quad_complex.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // Makes the quads. A vertex is at the place where the map has its whole numbers. Vertices on feature edges are pinned.
 // features: by half-edge. backward: the number of crossings where the map is turned over. If a piece between the lines
 // is no disc, the Euler characteristic differs from the surface's.
-QuadComplex extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
-                          std::int32_t& backward, Memory& memory);
+QuadComplex extract_quads(const remesh::FluxSurface& surface, const GridMap& map,
+                          const remesh::Table<std::uint8_t>& features, std::int32_t& backward, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // Feature edges of one triangle whose directions sum to less than this, as crosses, say nothing about it. At 0.25, 3 of
@@ -21,9 +21,9 @@ std::int32_t nearest_index(double measured, int turns) noexcept {
 
 }  // namespace
 
-Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Memory& memory) {
-  Table<std::uint8_t> out(surface.half_count(), 0, memory);
-  Table<Vec3> normal(surface.real_triangles, Vec3{}, memory);
+remesh::Table<std::uint8_t> find_features(const remesh::FluxSurface& surface, double crease, Memory& memory) {
+  remesh::Table<std::uint8_t> out(surface.half_count(), 0, memory);
+  remesh::Table<Vec3> normal(surface.real_triangles, Vec3{}, memory);
   for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
     const Vec3 a = surface.position[surface.tail[3 * t]];
     normal[t] = cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a);
@@ -40,10 +40,10 @@ Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Mem
   return out;
 }
 
-void keep_edges(const FluxSurface& surface, const Topology& topology, Span<const std::int32_t> edges,
-                Table<std::uint8_t>& features, Memory& memory) {
+void keep_edges(const remesh::FluxSurface& surface, const mesh::Topology& topology, Span<const std::int32_t> edges,
+                remesh::Table<std::uint8_t>& features, Memory& memory) {
   if (edges.empty()) return;
-  Table<std::uint8_t> kept(topology.edge_count(), 0, memory);
+  remesh::Table<std::uint8_t> kept(topology.edge_count(), 0, memory);
   for (const std::int32_t e : edges) kept[e] = 1;
   for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
     features[h] |=
@@ -51,9 +51,9 @@ void keep_edges(const FluxSurface& surface, const Topology& topology, Span<const
   }
 }
 
-FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connection, Span<const Complex> crosses,
-                          const Table<std::uint8_t>& features, const SharpCorners& corners,
-                          const Table<Complex>& of_corner, Memory& memory) {
+FaceCross FaceCross::make(const remesh::FluxSurface& surface, const field::Connection& connection,
+                          Span<const Complex> crosses, const remesh::Table<std::uint8_t>& features,
+                          const SharpCorners& corners, const remesh::Table<Complex>& of_corner, Memory& memory) {
   FaceCross out(memory);
   const std::int32_t triangles = surface.real_triangles, halves = surface.half_count();
   out.edge.assign(halves, Complex(0, 0));
@@ -74,12 +74,12 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
       const std::int32_t v = surface.mesh_vertex[surface.tail[3 * t + k]];
       const std::size_t i = static_cast<std::size_t>(v);
       const Complex own = of_corner.empty() || of_corner[3 * t + k] == 0.0 ? crosses[i] : of_corner[3 * t + k];
-      const double size = length_of(own);
+      const double size = field::length_of(own);
       if (!(size > 0)) continue;
-      const Vec3 space = connection.to_space(v, at_angle(1.0, angle_of(own) / 4));
+      const Vec3 space = connection.to_space(v, field::at_angle(1.0, field::angle_of(own) / 4));
       // A triangle may be turned over against the mesh.
       const Vec3 facing = dot(connection.normal[i], normal) < 0 ? -1.0 * normal : normal;
-      const Vec3 carried = carry(space, connection.normal[i], facing);
+      const Vec3 carried = field::carry(space, connection.normal[i], facing);
       Complex d = unit_of(Complex(dot(carried, x), dot(carried, y)), 1);
       d *= d;
       d *= d;
@@ -87,7 +87,7 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
     }
     Complex along = 0;
     const auto add_along = [&](std::int32_t h, double turn) {
-      Complex d = unit_of(out.edge[h], 1) * at_angle(1.0, turn);
+      Complex d = unit_of(out.edge[h], 1) * field::at_angle(1.0, turn);
       d *= d;
       d *= d;
       along += d;
@@ -98,16 +98,16 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
     }
     if (!corners.empty() && along == 0.0 && corners.inside[t].half != none)
       add_along(corners.inside[t].half, corners.inside[t].turn);
-    if (length_of(along) > least_agreement) sum = along;
-    out.direction[t] = at_angle(1.0, angle_of(sum) / 4);
+    if (field::length_of(along) > least_agreement) sum = along;
+    out.direction[t] = field::at_angle(1.0, field::angle_of(sum) / 4);
   }
-  Table<double> rest(halves, 0.0, memory);
+  remesh::Table<double> rest(halves, 0.0, memory);
   for (std::int32_t h = 0; h < 3 * triangles; ++h) {
     const std::int32_t g = surface.twin[h];
     if (!surface.is_real(g) || g < h) continue;
     const Complex mine = out.direction[h / 3] * std::conj(unit_of(out.edge[h], 1)),
                   other = out.direction[g / 3] * std::conj(unit_of(-out.edge[g], 1));
-    const double angle = angle_of(mine * std::conj(other)), quarters = std::nearbyint(angle / (half_turn / 2));
+    const double angle = field::angle_of(mine * std::conj(other)), quarters = std::nearbyint(angle / (half_turn / 2));
     out.turn[h] = static_cast<std::int8_t>(quarters);
     out.turn[g] = static_cast<std::int8_t>(-quarters);
     rest[h] = angle - quarters * (half_turn / 2);
@@ -132,4 +132,4 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -11,14 +11,14 @@
 #include "field/connection.h"
 #include "quads/sharp_corners.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // Marks, by half-edge, the feature edges: borders, and edges where the normals of the triangles differ by more than
 // `crease` radians. crease: at least pi for none.
-Table<std::uint8_t> find_features(const FluxSurface& surface, double crease, Memory& memory);
+remesh::Table<std::uint8_t> find_features(const remesh::FluxSurface& surface, double crease, Memory& memory);
 // Marks the half-edges of a list of edges too.
-void keep_edges(const FluxSurface& surface, const Topology& topology, Span<const std::int32_t> edges,
-                Table<std::uint8_t>& features, Memory& memory);
+void keep_edges(const remesh::FluxSurface& surface, const mesh::Topology& topology, Span<const std::int32_t> edges,
+                remesh::Table<std::uint8_t>& features, Memory& memory);
 
 struct FaceCross {
   explicit FaceCross(Memory& memory)
@@ -26,15 +26,16 @@ struct FaceCross {
   // crosses: by inner vertex of the mesh, to the fourth degree, in the frames of the connection. Triangles with creases
   // take the direction of these; at borders the crosses of the vertices count, which are evened out. Parameter
   // of_corner: of SideCrosses; its crosses count instead of the crosses of vertices. It may be empty.
-  static FaceCross make(const FluxSurface& surface, const Connection& connection,
-                        Span<const std::complex<double>> crosses, const Table<std::uint8_t>& features,
-                        const SharpCorners& corners, const Table<std::complex<double>>& of_corner, Memory& memory);
+  static FaceCross make(const remesh::FluxSurface& surface, const field::Connection& connection,
+                        Span<const std::complex<double>> crosses, const remesh::Table<std::uint8_t>& features,
+                        const SharpCorners& corners, const remesh::Table<std::complex<double>>& of_corner,
+                        Memory& memory);
 
-  Table<std::complex<double>> edge;       // by half-edge of a real triangle: its vector in the triangle's frame
-  Table<std::complex<double>> direction;  // by real triangle
-  Table<double> importance;               // by real triangle, in the map; empty: 1
-  Table<std::int8_t> turn;                // by half-edge; 0 on borders
-  Table<std::int32_t> index;              // by vertex; 0 on borders
+  remesh::Table<std::complex<double>> edge;       // by half-edge of a real triangle: its vector in the triangle's frame
+  remesh::Table<std::complex<double>> direction;  // by real triangle
+  remesh::Table<double> importance;               // by real triangle, in the map; empty: 1
+  remesh::Table<std::int8_t> turn;                // by half-edge; 0 on borders
+  remesh::Table<std::int32_t> index;              // by vertex; 0 on borders
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -2,7 +2,7 @@
 
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // In a pass that evens out the crosses of a border, each of the two neighbours counts this times the cross itself, and
@@ -13,8 +13,9 @@ constexpr double border_neighbour = 0.5, border_scale = 1 / (1 + 2 * border_neig
 
 }  // namespace
 
-Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, const Connection& connection,
-                                  const Table<std::uint8_t>& features, const SharpCorners& corners, Index passes) {
+Vector<HardCross> feature_crosses(const surface::Core& core, const remesh::FluxSurface& surface,
+                                  const field::Connection& connection, const remesh::Table<std::uint8_t>& features,
+                                  const SharpCorners& corners, Index passes) {
   Memory& memory = *core.memory;
   Vector<Complex> sum(at(core.size()), Complex(0, 0), &memory);
   Vector<double> count(at(core.size()), 0.0, &memory);
@@ -30,17 +31,17 @@ Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, 
     for (const std::int32_t end : {surface.tail[h], surface.head(h)}) {
       const Index v = surface.mesh_vertex[end];
       Complex z = connection.to_frame(v, edge);
-      if (!(length_of(z) > 0)) continue;
+      if (!(field::length_of(z) > 0)) continue;
       const double turn = !corners.empty() && corners.passed[end] ? mean : left != 0 ? left : right;
-      z /= length_of(z);
-      z *= at_angle(1.0, turn);
+      z /= field::length_of(z);
+      z *= field::at_angle(1.0, turn);
       z *= z;
       z *= z;
       sum[at(v)] += z;
       count[at(v)] += 1;
     }
   }
-  const Topology& topology = core.topology();
+  const mesh::Topology& topology = core.topology();
   const auto is_border = [&](Index e) {
     return topology.edge_triangle_start[at(e) + 1] - topology.edge_triangle_start[at(e)] == 1;
   };
@@ -51,17 +52,18 @@ Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, 
       Complex total = sum[at(v)];
       for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
         const Index w = topology.neighbour[at(i)], e = topology.neighbour_edge[at(i)];
-        if (is_border(e)) total += border_neighbour * sum[at(w)] * at_angle(1.0, 4 * connection.turn(topology, e, v));
+        if (is_border(e))
+          total += border_neighbour * sum[at(w)] * field::at_angle(1.0, 4 * connection.turn(topology, e, v));
       }
       next[at(v)] = border_scale * total;
     }
     sum.swap(next);
   }
   for (Index v = 0; v < core.size(); ++v) {
-    const double length = length_of(sum[at(v)]);
+    const double length = field::length_of(sum[at(v)]);
     if (count[at(v)] > 0 && length > agreement * count[at(v)]) out.push_back({v, sum[at(v)] / length});
   }
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

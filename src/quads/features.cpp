@@ -5,7 +5,7 @@
 
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 void add_to(RealSum& sum, const RealSum& other, double factor) {
   for (const RealTerm& term : other) {
@@ -33,7 +33,7 @@ RealSum part_of(const SeamSum& sum, int part, Memory& memory) {
   return out;
 }
 
-FeatureLines::FeatureLines(const FluxSurface& surface, const Seams& seams, Memory& memory)
+FeatureLines::FeatureLines(const remesh::FluxSurface& surface, const Seams& seams, Memory& memory)
     : surface_(surface),
       seams_(seams),
       memory_(memory),
@@ -128,7 +128,7 @@ int FeatureLines::part_along(std::int32_t h, Complex edge) const noexcept {
 
 void FeatureLines::add(std::int32_t h, Complex edge) {
   const int part = part_along(h, edge);
-  const Place a = corner(h, part), b = corner(FluxSurface::next(h), part);
+  const Place a = corner(h, part), b = corner(remesh::FluxSurface::next(h), part);
   equate(a, b);
 }
 
@@ -180,4 +180,4 @@ void FeatureLines::relate(RealSum sum) {
   ++left_out_;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

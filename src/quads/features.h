@@ -9,7 +9,7 @@
 #pragma once
 #include "quads/seams.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 struct RealTerm {
   std::int32_t number;  // 2 parameter + part; part 0 is real, part 1 imaginary
@@ -24,7 +24,7 @@ RealSum part_of(const SeamSum& sum, int part, Memory& memory);
 
 class FeatureLines {
  public:
-  FeatureLines(const FluxSurface& surface, const Seams& seams, Memory& memory);
+  FeatureLines(const remesh::FluxSurface& surface, const Seams& seams, Memory& memory);
   // Adds the equation of half-edge h of a real triangle. edge: its vector in the triangle's frame.
   void add(std::int32_t h, std::complex<double> edge);
 
@@ -55,18 +55,18 @@ class FeatureLines {
   void equate(const Place& a, const Place& b);
   void relate(RealSum sum);
 
-  const FluxSurface& surface_;
+  const remesh::FluxSurface& surface_;
   const Seams& seams_;
   Memory& memory_;
-  Table<std::int32_t> slot_;  // by vertex and part
+  remesh::Table<std::int32_t> slot_;  // by vertex and part
   // By slot: x = sign x_parent + sum; at a root, parent is the slot itself, or -1 where the sum is its value.
-  Table<std::int32_t> parent_;
-  Table<double> sign_;
+  remesh::Table<std::int32_t> parent_;
+  remesh::Table<double> sign_;
   Vector<RealSum> sum_;
   std::int32_t slots_ = 0, left_out_ = 0;
-  Table<std::int32_t> solved_;  // by real parameter: its place in solutions_, or -1
+  remesh::Table<std::int32_t> solved_;  // by real parameter: its place in solutions_, or -1
   Vector<RealSum> solutions_;
-  Table<std::int32_t> path_;
+  remesh::Table<std::int32_t> path_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -18,7 +18,7 @@
 #include "remesh/relax.h"
 #include "remesh/unfold.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // The lines of this room report other values in 15 to 26 runs. The runs use 11 to 17 small and medium meshes, with and
@@ -104,7 +104,7 @@ struct Guided {
   Vector<double> weight;
 };
 
-Guided read_guides(Span<const QuadGuide> guides, const Connection& connection, Index vertices, Memory& memory) {
+Guided read_guides(Span<const QuadGuide> guides, const field::Connection& connection, Index vertices, Memory& memory) {
   Guided out(memory);
   if (guides.empty()) return out;
   out.cross.assign(at(vertices), Complex(0, 0));
@@ -114,11 +114,11 @@ Guided read_guides(Span<const QuadGuide> guides, const Connection& connection, I
     const QuadGuide& guide = guides[i];
     const std::size_t v = at(guide.vertex);
     Complex z = connection.to_frame(guide.vertex, unit_vector(guide.vector));
-    if (!(length_of(z) > least_tangent) && guide.given == QuadGuide::of_pole) continue;
-    if (!(length_of(z) > least_tangent))
+    if (!(field::length_of(z) > least_tangent) && guide.given == QuadGuide::of_pole) continue;
+    if (!(field::length_of(z) > least_tangent))
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(guide.given),
            "guide_vectors[%d] is normal to the surface; give a direction along it", guide.given);
-    z /= length_of(z);
+    z /= field::length_of(z);
     z *= z;
     z *= z;
     out.cross[v] += guide.weight * z;
@@ -138,15 +138,15 @@ void add_held(const Guided& guided, Vector<HardCross>& hard) {
   for (std::size_t v = 0; v < guided.weight.size(); ++v) {
     while (next < features && at(hard[next].vertex) < v) ++next;
     const bool taken = next < features && at(hard[next].vertex) == v;
-    const double length = length_of(guided.cross[v]);
+    const double length = field::length_of(guided.cross[v]);
     if (guided.weight[v] < 1 || taken || !(length > agreement)) continue;
     hard.push_back({static_cast<Index>(v), guided.cross[v] / length});
   }
 }
 
 // How many vertices inside have not four quads.
-std::int32_t count_irregular(const QuadMesh& mesh, Memory& memory) {
-  Table<std::int32_t> valence(mesh.position.size(), 0, memory);
+std::int32_t count_irregular(const remesh::QuadMesh& mesh, Memory& memory) {
+  remesh::Table<std::int32_t> valence(mesh.position.size(), 0, memory);
   for (const std::int32_t v : mesh.corner) ++valence[v];
   std::int32_t count = 0;
   for (std::int32_t v = 0; v < valence.size(); ++v) count += !mesh.border[v] && valence[v] != 4;
@@ -154,7 +154,7 @@ std::int32_t count_irregular(const QuadMesh& mesh, Memory& memory) {
 }
 
 // The longest edge of a quad over its shortest: 19 of 20 quads have less.
-double stretch_of(const QuadMesh& mesh, Memory& memory) {
+double stretch_of(const remesh::QuadMesh& mesh, Memory& memory) {
   if (mesh.face_count() == 0) return 1;
   Vector<double> ratio(&memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
@@ -172,8 +172,9 @@ double stretch_of(const QuadMesh& mesh, Memory& memory) {
 }
 
 // The area of the quads of each component of the surface.
-Table<double> component_areas(const FluxSurface& surface, const QuadMesh& mesh, Memory& memory) {
-  Table<double> out(surface.component_count, 0.0, memory);
+remesh::Table<double> component_areas(const remesh::FluxSurface& surface, const remesh::QuadMesh& mesh,
+                                      Memory& memory) {
+  remesh::Table<double> out(surface.component_count, 0.0, memory);
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     const std::int32_t* c = mesh.quad(f);
     const Vec3 normal = cross(mesh.position[c[2]] - mesh.position[c[0]], mesh.position[c[3]] - mesh.position[c[1]]);
@@ -185,14 +186,15 @@ Table<double> component_areas(const FluxSurface& surface, const QuadMesh& mesh, 
 // Evens out quads. The six quads of a small flat body have corners against the normals of the surface. Such corners
 // move to the middle of their quads, and the body shrinks to a point. So components that shrink keep the places they
 // had.
-void even_out_components(const FluxSurface& surface, const RelaxOptions& options, QuadMesh& mesh, Memory& memory) {
-  const Table<double> before = component_areas(surface, mesh, memory);
-  Table<Vec3> position(memory);
-  Table<SurfacePoint> location(memory);
+void even_out_components(const remesh::FluxSurface& surface, const remesh::RelaxOptions& options,
+                         remesh::QuadMesh& mesh, Memory& memory) {
+  const remesh::Table<double> before = component_areas(surface, mesh, memory);
+  remesh::Table<Vec3> position(memory);
+  remesh::Table<remesh::SurfacePoint> location(memory);
   position = mesh.position;
   location = mesh.location;
-  relax_quads(surface, mesh, options, memory);
-  const Table<double> after = component_areas(surface, mesh, memory);
+  remesh::relax_quads(surface, mesh, options, memory);
+  const remesh::Table<double> after = component_areas(surface, mesh, memory);
   for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
     const std::int32_t c = surface.component[surface.tail[3 * location[v].triangle]];
     if (after[c] < least_evened * before[c]) {
@@ -203,9 +205,9 @@ void even_out_components(const FluxSurface& surface, const RelaxOptions& options
 }
 
 // Evens out quads and fits them to the surface. Returns their distance.
-double even_out(const FluxSurface& surface, const QuadDistance& distance, std::int32_t rounds, double edge_length,
-                QuadMesh& mesh, Memory& memory) {
-  RelaxOptions relax;
+double even_out(const remesh::FluxSurface& surface, const remesh::QuadDistance& distance, std::int32_t rounds,
+                double edge_length, remesh::QuadMesh& mesh, Memory& memory) {
+  remesh::RelaxOptions relax;
   relax.rounds = rounds;
   relax.edge_length = edge_length;
   {
@@ -214,16 +216,16 @@ double even_out(const FluxSurface& surface, const QuadDistance& distance, std::i
   }
   const ProgressRange range(field_progress.relaxed, 1.0f);
   distance.turn_quads(mesh);
-  FitOptions fit;
+  remesh::FitOptions fit;
   fit.edge_length = edge_length;
   fit.tolerance = fit_tolerance * edge_length;
-  const double away = fit_quads(surface, distance, mesh, fit, memory);
-  return unfold_quads(surface, distance, edge_length, away, mesh, memory);
+  const double away = remesh::fit_quads(surface, distance, mesh, fit, memory);
+  return remesh::unfold_quads(surface, distance, edge_length, away, mesh, memory);
 }
 
 }  // namespace
 
-double area_of(const Core& core) {
+double area_of(const surface::Core& core) {
   double sum = 0;
   for (const double part : core.areas) sum += part;
   return sum;
@@ -241,7 +243,7 @@ namespace {
 
 // Quads of a surface whose triangles are short enough.
 QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out_report, QuadKeeper* kept) {
-  const Core& core = *options.core;
+  const surface::Core& core = *options.core;
   Memory& memory = *core.memory;
   FieldQuadReport made;
   hf_inner::report(0.0f);
@@ -250,13 +252,13 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
   std::optional<QuadBase> own;
   if (kept && !kept->whole) kept->whole = make_owner_in<QuadBase>(core.memory, options.core);
   QuadBase& base = kept ? *kept->whole : own.emplace(options.core);
-  const FluxSurface& surface = base.surface;
+  const remesh::FluxSurface& surface = base.surface;
   double edge_length = options.edge_length;
   if (options.faces > 0) edge_length = std::sqrt(base.area / options.faces);
   base.prepare(edge_length, options.facet);
-  const Connection& connection = base.system->connection;
+  const field::Connection& connection = base.system->connection;
   part.reset();
-  Table<std::uint8_t> features = find_features(surface, options.crease > 0 ? options.crease : HUGE_VAL, memory);
+  remesh::Table<std::uint8_t> features = find_features(surface, options.crease > 0 ? options.crease : HUGE_VAL, memory);
   keep_edges(surface, core.topology(), options.crease_edges, features, memory);
   const SharpCorners corners = SharpCorners::find(surface, features, edge_length, memory);
   Vector<HardCross> hard = feature_crosses(core, surface, connection, features, corners, base.passes);
@@ -320,7 +322,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
     from = to;
     const double aimed = std::sqrt(base.area / aim);
     CountedQuads counted(surface, source, aim, aimed, options.faces > 0, memory);
-    QuadMesh mesh(memory);
+    remesh::QuadMesh mesh(memory);
     FieldQuadReport now;
     bool too_many = false, fewest = false;  // fewest: nothing more can be removed
     double off = HUGE_VAL, done = 0;        // the distance to the surface; the progress of this turn
@@ -338,7 +340,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
       done = (done + 1) / 2;
       FieldQuadReport tried = made;
       Timer turn_timer;
-      QuadMesh found(memory);
+      remesh::QuadMesh found(memory);
       try {
         found = i == 0 ? counted.make(untangled, tried) : counted.make_finer(share, untangled, tried);
       } catch (const QuadSource::LostComponent&) {
@@ -348,7 +350,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
       // If every component has a substitute, its quads come from the try before.
       if (i > 0 && tried.substitutes == surface.component_count && now.substitutes == surface.component_count) break;
       if (i == 0) fewest = found.face_count() > (1 + fitted_error) * aim;
-      check_quads(found, surface.euler_characteristic, memory);
+      remesh::check_quads(found, surface.euler_characteristic, memory);
       hold_poles(surface, poles, tried.edge_length, found, memory);
       made.quads_ms += turn_timer.milliseconds();
       hf_inner::report(field_progress.extracted);
@@ -360,7 +362,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
       if (options.relax > 0 && !too_many) {
         away =
             even_out(surface, base.distance(sample_spacing * aimed), options.relax, tried.edge_length, found, memory);
-        check_quads(found, surface.euler_characteristic, memory);
+        remesh::check_quads(found, surface.euler_characteristic, memory);
       }
       made.fit_ms += fit_timer.milliseconds();
       hf_inner::report(1.0f);
@@ -401,7 +403,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
   }
   made = chosen;
   base.apart.bring_home(surface, core.mesh, result.mesh);
-  locate_in_mesh(surface, core.mesh, result.mesh);
+  remesh::locate_in_mesh(surface, core.mesh, result.mesh);
   if (out_report) *out_report = made;
   hf_inner::report(1.0f);
   return result;
@@ -410,7 +412,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
 // Quads of a surface whose long triangles are cut.
 QuadResult make_cut_quads(const FieldQuadOptions& options, double area, double length, FieldQuadReport* out_report,
                           QuadKeeper* kept) {
-  const Core& whole = *options.core;
+  const surface::Core& whole = *options.core;
   const double wanted = options.faces > 0 ? options.faces : area / (length * length);
   std::shared_ptr<CutBase> base = kept ? kept->cut : nullptr;
   if (!base || base->length != length || base->quads != wanted) {
@@ -438,7 +440,7 @@ QuadResult make_cut_quads(const FieldQuadOptions& options, double area, double l
     const ProgressRange part(field_progress.cut, field_progress.cut_done);
     QuadResult result = make_quads_here(cut_options, &found, kept ? &base->kept : nullptr);
     for (Vec3& p : result.mesh.position) p = base->core->mesh.to_given(p);
-    for (SurfacePoint& point : result.mesh.location) point = base->in_whole(point);
+    for (remesh::SurfacePoint& point : result.mesh.location) point = base->in_whole(point);
     found.edge_length *= base->core->mesh.scale;
     if (out_report) *out_report = found;
     hf_inner::report(1.0f);
@@ -474,4 +476,4 @@ QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* ou
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -6,15 +6,15 @@
 #pragma once
 #include <optional>
 
-#include "engine/core.h"
 #include "mesh/mirror_plane.h"
 #include "quads/apart.h"
 #include "quads/chords.h"
 #include "quads/cross_field.h"
 #include "quads/extract.h"
 #include "remesh/quad_distance.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // Wanted edge length of quads, as a share of the box: trades detail for faces. At half the value: four times the faces.
 constexpr double default_edge_length = 0.022;
@@ -39,7 +39,7 @@ struct QuadPole {
 };
 
 struct FieldQuadOptions {
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   double edge_length = default_edge_length;  // inner units
   std::int32_t faces = 0;                    // wanted number of quads, which replaces the edge length; 0: none
   std::int32_t relax = default_relax_rounds;
@@ -48,8 +48,8 @@ struct FieldQuadOptions {
   double crease = 0;    // radians: edges that bend more are kept; 0: none
   Span<const Index> crease_edges;  // edges that are kept whatever their angle
   Span<const QuadGuide> guides;
-  Span<const QuadPole> poles;        // whose guides are among the guides
-  std::optional<MirrorPlane> plane;  // the quads are their own mirror image in it
+  Span<const QuadPole> poles;              // whose guides are among the guides
+  std::optional<mesh::MirrorPlane> plane;  // the quads are their own mirror image in it
 };
 
 struct FieldQuadReport {
@@ -69,32 +69,32 @@ struct FieldQuadReport {
 
 struct QuadResult {
   explicit QuadResult(Memory& memory) : mesh(memory) {}
-  QuadMesh mesh;
+  remesh::QuadMesh mesh;
   std::int32_t euler_characteristic = 0;
 };
 
 // The data that quads of one surface share, whatever their creases and guides. Data of an edge length is made again for
 // another edge length. An exception leaves parts unmade, which the next call makes.
 struct QuadBase {
-  explicit QuadBase(std::shared_ptr<const Core> core);
+  explicit QuadBase(std::shared_ptr<const surface::Core> core);
   QuadBase(const QuadBase&) = delete;
   QuadBase& operator=(const QuadBase&) = delete;
   // Makes the curvature and the factor of the crosses for an edge length. facet: as in the options.
   void prepare(double edge_length, double facet);
   // Returns samples of the surface that are so far apart.
-  const QuadDistance& distance(double spacing);
+  const remesh::QuadDistance& distance(double spacing);
 
-  std::shared_ptr<const Core> core;
-  FluxSurface surface;  // its components stand apart
+  std::shared_ptr<const surface::Core> core;
+  remesh::FluxSurface surface;  // its components stand apart
   Apart apart;
   double area = 0, mean_edge = 0;
-  std::optional<DirectionMatrix> system;
+  std::optional<field::DirectionMatrix> system;
   std::optional<CrossSmoother> smoother;
   Index passes = -1;                       // of `curvature`; -1: not made
   Vector<std::complex<double>> curvature;  // wished crosses
  private:
   double spacing_ = 0;
-  std::optional<QuadDistance> distance_;
+  std::optional<remesh::QuadDistance> distance_;
 };
 
 struct HalfBase;  // the same for symmetric quads (symmetric.h)
@@ -107,7 +107,7 @@ struct QuadKeeper {
   std::shared_ptr<CutBase> cut;
 };
 
-double area_of(const Core& core);
+double area_of(const surface::Core& core);
 // Throws HF_ERROR_TOO_LARGE if the default edge length gives far more quads than anybody wants.
 void check_expected(const FieldQuadOptions& options, double area);
 
@@ -119,4 +119,4 @@ void check_expected(const FieldQuadOptions& options, double area);
 QuadResult make_field_quads(const FieldQuadOptions& options, FieldQuadReport* report = nullptr,
                             QuadKeeper* kept = nullptr);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -11,7 +11,7 @@
 #include "quads/numbers.h"
 #include "quads/untangle.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // Coordinates stay below 2^29 units, so that orientations of triangles are exact in 64 bits. Half and double change no
@@ -164,15 +164,16 @@ class EntryColumns {
   const Entry& operator[](std::int32_t i) const noexcept { return entries_[at(i)]; }
 
  private:
-  Table<std::int32_t> start_, cursor_;
-  Table<std::int32_t> place_;  // by row: its entry in the last column that has it
+  remesh::Table<std::int32_t> start_, cursor_;
+  remesh::Table<std::int32_t> place_;  // by row: its entry in the last column that has it
   Vector<Entry> entries_;
 };
 
 }  // namespace
 
-GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, const Seams& seams,
-                       const Table<std::uint8_t>& features, Span<const Index> order, Memory& memory, JobRunner& jobs)
+GridMapper::GridMapper(const remesh::FluxSurface& surface, const FaceCross& crosses, const Seams& seams,
+                       const remesh::Table<std::uint8_t>& features, Span<const Index> order, Memory& memory,
+                       JobRunner& jobs)
     : surface_(surface),
       crosses_(crosses),
       seams_(seams),
@@ -189,9 +190,9 @@ GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, con
       made_(&memory) {
   number(features);
   assemble();
-  FactorOptions options;
-  options.ordering = Ordering::natural;
-  system_.emplace(matrix_, Factor::make(matrix_, {}, options, memory_, jobs_), memory_, jobs_);
+  factor::FactorOptions options;
+  options.ordering = factor::Ordering::natural;
+  system_.emplace(matrix_, factor::Factor::make(matrix_, {}, options, memory_, jobs_), memory_, jobs_);
   system_->set_right(right_);
 }
 
@@ -203,13 +204,13 @@ RealSum GridMapper::in_unknowns(RealSum sum) const {
 
 // Removes the edges of the shortest lines if there are too many lines. Returns whether any is gone.
 bool GridMapper::keep_longest(FeatureLines& lines, Vector<std::int32_t>& edges) const {
-  Table<double> length(lines.line_count(), 0, memory_);
+  remesh::Table<double> length(lines.line_count(), 0, memory_);
   Vector<std::int32_t> used(&memory_);
   for (const std::int32_t h : edges) {
     const std::int32_t line = lines.line_of(h, crosses_.edge[h]);
     if (line < 0) continue;
     if (length[line] == 0) used.push_back(line);
-    length[line] += length_of(crosses_.edge[h]);
+    length[line] += field::length_of(crosses_.edge[h]);
   }
   if (used.size() <= at(most_lines)) return false;
   std::nth_element(used.begin(), used.begin() + most_lines, used.end(), [&](std::int32_t a, std::int32_t b) {
@@ -224,7 +225,7 @@ bool GridMapper::keep_longest(FeatureLines& lines, Vector<std::int32_t>& edges) 
   return true;
 }
 
-void GridMapper::number(const Table<std::uint8_t>& features) {
+void GridMapper::number(const remesh::Table<std::uint8_t>& features) {
   const std::int32_t n = surface_.vertex_count();
   std::optional<FeatureLines> found_lines(std::in_place, surface_, seams_, memory_);
   Vector<std::int32_t> edges(&memory_);
@@ -309,7 +310,7 @@ void GridMapper::assemble() {
     if (!counting) sums.begin();
     for (std::int32_t h = 0; h < 3 * surface_.real_triangles; ++h) {
       poller.due();
-      const std::int32_t t = h / 3, ends[2] = {FluxSurface::next(h), h};
+      const std::int32_t t = h / 3, ends[2] = {remesh::FluxSurface::next(h), h};
       SeamTerm terms[4] = {};
       int count = 0;
       for (int end = 0; end < 2; ++end) {
@@ -330,9 +331,9 @@ void GridMapper::assemble() {
       if (h % 3 == 0) {
         Vec3 p[3];
         for (int k = 0; k < 3; ++k) p[k] = surface_.position[surface_.tail[h + k]];
-        corner_cotangents(p, cotangent);
+        mesh::corner_cotangents(p, cotangent);
         if (std::max({std::fabs(cotangent[0]), std::fabs(cotangent[1]), std::fabs(cotangent[2])}) > most_cotangent)
-          widened_cotangents(p, cotangent);
+          mesh::widened_cotangents(p, cotangent);
         if (!crosses_.importance.empty()) {
           for (double& c : cotangent) c *= crosses_.importance[t];
         }
@@ -479,8 +480,8 @@ GridMap GridMapper::make(double edge_length, bool untangled) {
       fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a singularity of the crosses cannot lie on the grid");
     return near;
   };
-  Table<Complex> z(n, Complex(0, 0), memory_);
-  Table<std::uint8_t> whole(2 * n, 0, memory_);
+  remesh::Table<Complex> z(n, Complex(0, 0), memory_);
+  remesh::Table<std::uint8_t> whole(2 * n, 0, memory_);
   bool is_whole = false;
   const auto read = [&](std::int32_t variable, std::uint8_t* flags) {
     double parts[2];
@@ -544,4 +545,4 @@ void GridMapper::release() noexcept {
   matrix_ = SymmetricMatrix(memory_);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

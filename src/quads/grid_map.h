@@ -14,12 +14,12 @@
 #include "quads/definite_system.h"
 #include "quads/features.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // The map at an edge length. u, v: by half-edge, of the corner at its tail, in multiples of 1 / unit.
 struct GridMap {
   explicit GridMap(Memory& memory) : u(memory), v(memory) {}
-  Table<std::int64_t> u, v;
+  remesh::Table<std::int64_t> u, v;
   int bits = 0;                  // unit = 2^bits
   std::int32_t turned_over = 0;  // triangles whose image is turned over or without area
   std::int32_t roundings = 0;
@@ -29,8 +29,8 @@ class GridMapper {
  public:
   // features: by half-edge. order: by inner vertex of the mesh, its place in an elimination order. All arguments must
   // outlive *this.
-  GridMapper(const FluxSurface& surface, const FaceCross& crosses, const Seams& seams,
-             const Table<std::uint8_t>& features, Span<const Index> order, Memory& memory, JobRunner& jobs);
+  GridMapper(const remesh::FluxSurface& surface, const FaceCross& crosses, const Seams& seams,
+             const remesh::Table<std::uint8_t>& features, Span<const Index> order, Memory& memory, JobRunner& jobs);
 
   // Throws HF_ERROR_UNSUPPORTED if a singularity cannot lie on the grid or the map is too large.
   // untangled: turns triangles back that are turned over (untangle.h).
@@ -49,23 +49,23 @@ class GridMapper {
 
  private:
   bool keep_longest(FeatureLines& lines, Vector<std::int32_t>& edges) const;
-  void number(const Table<std::uint8_t>& features);
+  void number(const remesh::Table<std::uint8_t>& features);
   void assemble();
   RealSum in_unknowns(RealSum sum) const;
   // A real variable as a sum of unknowns. Variables are vertices, and after them the offsets of the seams.
   Span<const RealTerm> expand(std::int32_t variable, int part, RealTerm& single) const;
 
-  const FluxSurface& surface_;
+  const remesh::FluxSurface& surface_;
   const FaceCross& crosses_;
   const Seams& seams_;
   Memory& memory_;
   JobRunner& jobs_;
   Span<const Index> order_;
   // By real variable, 2 variable + part: its unknown, or -1 - k if it is the sum sums_[k] of unknowns.
-  Table<std::int32_t> unknown_;
+  remesh::Table<std::int32_t> unknown_;
   Vector<RealSum> sums_;
-  Table<std::int32_t> of_parameter_, of_line_;  // the unknown of a real parameter and of a line
-  std::int32_t free_count_ = 0;                 // unknowns that need not be whole; those that must follow
+  remesh::Table<std::int32_t> of_parameter_, of_line_;  // the unknown of a real parameter and of a line
+  std::int32_t free_count_ = 0;                         // unknowns that need not be whole; those that must follow
   std::int32_t left_out_ = 0;
   SymmetricMatrix matrix_;
   Vector<double> right_;
@@ -75,4 +75,4 @@ class GridMapper {
   Vector<double> made_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -7,7 +7,7 @@
 #include "mesh/vertex_lists.h"
 #include "quads/poles.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // Refuse mistakes; no result depends on them. hf/quads.h states them.
@@ -23,7 +23,7 @@ constexpr std::uint32_t most_poles = 1000;
 constexpr double least_normal = 1e-150, most_normal = 1e150;
 
 // Returns the edge length in box diagonals.
-double read_edge_length(const Mesh& mesh, double length) {
+double read_edge_length(const mesh::Mesh& mesh, double length) {
   check_finite(length, "edge_length");
   if (length == 0) return default_edge_length;
   const double share = length / mesh.scale;
@@ -41,7 +41,7 @@ std::int32_t read_relax_count(std::uint32_t given) {
   return given == 0 ? default_relax_rounds : given == HF_NO_INDEX ? 0 : static_cast<std::int32_t>(given);
 }
 
-void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>& out) {
+void read_guides(const surface::Core& core, const hf_quads_desc& desc, Vector<QuadGuide>& out) {
   if (desc.guide_count == 0) {
     if (desc.guide_vertices || desc.guide_vectors || desc.guide_weights)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "guide_count is 0, but arrays of guides are given");
@@ -49,10 +49,11 @@ void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>&
   }
   require(desc.guide_vertices, "guide_vertices");
   require(desc.guide_vectors, "guide_vectors");
-  if (desc.guide_count > most_elements)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "guide_count is %u; it must be up to %u", desc.guide_count, most_elements);
+  if (desc.guide_count > mesh::most_elements)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "guide_count is %u; it must be up to %u", desc.guide_count,
+         mesh::most_elements);
   Vector<Index> inner(core.memory.get());
-  append_usable(core.mesh, desc.guide_count, desc.guide_vertices, "guide_vertices", inner);
+  mesh::append_usable(core.mesh, desc.guide_count, desc.guide_vertices, "guide_vertices", inner);
   for (std::uint32_t i = 0; i < desc.guide_count; ++i) {
     const double* given = desc.guide_vectors + std::size_t{3} * i;
     if (!is_finite_point(given)) fail(HF_ERROR_NON_FINITE, i, "guide_vectors[%u] is not finite", i);
@@ -67,7 +68,8 @@ void read_guides(const Core& core, const hf_quads_desc& desc, Vector<QuadGuide>&
   }
 }
 
-void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOptions& options, QuadLists& lists) {
+void read_poles(const surface::Core& core, const hf_quads_desc& desc, const FieldQuadOptions& options,
+                QuadLists& lists) {
   if (desc.irregular_count == 0) {
     if (desc.irregular_points || desc.irregular_valences || desc.irregular_directions)
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "irregular_count is 0, but arrays of poles are given");
@@ -86,7 +88,7 @@ void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOpti
       fail(HF_ERROR_INVALID_ARGUMENT, i, "irregular_valences[%u] is %u; it must be 3 or 5", i,
            desc.irregular_valences[i]);
     QuadPole pole;
-    pole.place = read_point_near(core.mesh, point, "pole", i);
+    pole.place = mesh::read_point_near(core.mesh, point, "pole", i);
     pole.quads = static_cast<std::int32_t>(desc.irregular_valences[i]);
     if (desc.irregular_directions) {
       const double* direction = desc.irregular_directions + std::size_t{3} * i;
@@ -98,13 +100,13 @@ void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOpti
   double edge = options.edge_length;
   if (options.faces > 0) {
     double area = 0;
-    for (const double own : vertex_areas(core.mesh, *core.memory)) area += own;
+    for (const double own : mesh::vertex_areas(core.mesh, *core.memory)) area += own;
     edge = std::sqrt(area / options.faces);
   }
   add_pole_guides(core, poles, edge, lists.guides);
 }
 
-void read_crease_edges(const Core& core, const hf_quads_desc& desc, Vector<Index>& out) {
+void read_crease_edges(const surface::Core& core, const hf_quads_desc& desc, Vector<Index>& out) {
   if (desc.crease_count == 0) {
     if (desc.crease_edges) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "crease_count is 0, but crease_edges is given");
     return;
@@ -115,17 +117,17 @@ void read_crease_edges(const Core& core, const hf_quads_desc& desc, Vector<Index
          core.topology().edge_count());
   for (std::uint32_t i = 0; i < desc.crease_count; ++i) {
     const std::uint32_t* given = desc.crease_edges + std::size_t{2} * i;
-    const Index a = usable_vertex(core.mesh, given[0], i, "crease_edges"),
-                b = usable_vertex(core.mesh, given[1], i, "crease_edges");
-    const Index e = a == b ? Mesh::none : core.topology().edge_between(a, b);
-    if (e == Mesh::none)
+    const Index a = mesh::usable_vertex(core.mesh, given[0], i, "crease_edges"),
+                b = mesh::usable_vertex(core.mesh, given[1], i, "crease_edges");
+    const Index e = a == b ? mesh::Mesh::none : core.topology().edge_between(a, b);
+    if (e == mesh::Mesh::none)
       fail(HF_ERROR_INVALID_ARGUMENT, i, "crease_edges[%u]: no triangle has an edge from vertex %u to vertex %u", i,
            given[0], given[1]);
     out.push_back(e);
   }
 }
 
-std::optional<MirrorPlane> read_plane(const Mesh& mesh, const double* given) {
+std::optional<mesh::MirrorPlane> read_plane(const mesh::Mesh& mesh, const double* given) {
   for (int k = 0; k < 4; ++k) {
     if (!std::isfinite(given[k])) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "symmetry_plane[%d] is not finite", k);
   }
@@ -136,7 +138,7 @@ std::optional<MirrorPlane> read_plane(const Mesh& mesh, const double* given) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
          "symmetry_plane has a normal of length %g; it must be %g to %g, or all four numbers 0", length, least_normal,
          most_normal);
-  MirrorPlane plane;
+  mesh::MirrorPlane plane;
   plane.normal = (1 / length) * normal;
   plane.offset = (given[3] / length - dot(plane.normal, mesh.centre)) / mesh.scale;
   return plane;
@@ -144,7 +146,7 @@ std::optional<MirrorPlane> read_plane(const Mesh& mesh, const double* given) {
 
 }  // namespace
 
-FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc,
+FieldQuadOptions read_field_quad_options(std::shared_ptr<const surface::Core> core, const hf_quads_desc& desc,
                                          QuadLists& lists) {
   if (desc.face_count > most_wanted_faces)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "face_count is %u; it must be up to %u", desc.face_count,
@@ -169,4 +171,4 @@ FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const
   return options;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

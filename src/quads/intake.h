@@ -3,7 +3,7 @@
 #include "hf/quads.h"
 #include "quads/field_quads.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // The lists of the caller, which the options refer to.
 struct QuadLists {
@@ -14,6 +14,7 @@ struct QuadLists {
 };
 
 // Throws as hf_quads_create says.
-FieldQuadOptions read_field_quad_options(std::shared_ptr<const Core> core, const hf_quads_desc& desc, QuadLists& lists);
+FieldQuadOptions read_field_quad_options(std::shared_ptr<const surface::Core> core, const hf_quads_desc& desc,
+                                         QuadLists& lists);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

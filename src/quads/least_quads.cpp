@@ -5,7 +5,7 @@
 #include "quads/numbers.h"
 #include "quads/quad_complex.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // The fewest quads must have this share of the area: a box in a ball has 0.64. One quad over the wrist of a hand has
@@ -25,13 +25,14 @@ constexpr double straight_share = 0.9;
 // The vertices and triangles of one component, and a half-edge of its border.
 struct Part {
   explicit Part(Memory& memory) : triangles(memory), vertices(memory) {}
-  Table<std::int32_t> triangles, vertices;
+  remesh::Table<std::int32_t> triangles, vertices;
   std::int32_t border = none, borders = 0, euler = 0;
 };
 
 class Maker {
  public:
-  Maker(const FluxSurface& surface, QuadComplex& out, Memory& memory) : s_(surface), out_(out), memory_(memory) {}
+  Maker(const remesh::FluxSurface& surface, QuadComplex& out, Memory& memory)
+      : s_(surface), out_(out), memory_(memory) {}
 
   // A box whose corners lie on the surface: along the direction to the farthest vertex, along the direction to the
   // vertex farthest from this line, and across both.
@@ -85,11 +86,11 @@ class Maker {
   // One quad with its corners on the border. The first is farthest from the middle, the third is farthest from the
   // first. The others are farthest from the line between both, one on either side.
   void disc(const Part& part) {
-    Table<std::int32_t> loop(memory_);  // half-edges of the border
+    remesh::Table<std::int32_t> loop(memory_);  // half-edges of the border
     for (std::int32_t h = part.border; loop.empty() || h != part.border;) {
       loop.push_back(h);
-      h = FluxSurface::next(h);
-      while (s_.is_real(s_.twin[h])) h = FluxSurface::next(s_.twin[h]);
+      h = remesh::FluxSurface::next(h);
+      while (s_.is_real(s_.twin[h])) h = remesh::FluxSurface::next(s_.twin[h]);
     }
     const std::int32_t count = loop.size();
     const auto position = [&](std::int32_t i) { return s_.position[s_.tail[loop[i % count]]]; };
@@ -104,7 +105,7 @@ class Maker {
     }
     const Vec3 line = unit_vector(position(to) - position(from));
     const auto farthest = [&](std::int32_t begin, std::int32_t end) {  // between two places of the loop
-      SurfacePoint best = at_tail(loop[begin % count], 0.5);
+      remesh::SurfacePoint best = at_tail(loop[begin % count], 0.5);
       double most = -1;
       for (std::int32_t i = begin + 1; i < end; ++i) {
         const Vec3 way = position(i) - position(from);
@@ -117,10 +118,10 @@ class Maker {
       return best;
     };
     if (to < from) to += count;
-    const SurfacePoint corner[4] = {at_tail(loop[from], 0), farthest(from, to), at_tail(loop[to % count], 0),
-                                    farthest(to, from + count)};
+    const remesh::SurfacePoint corner[4] = {at_tail(loop[from], 0), farthest(from, to), at_tail(loop[to % count], 0),
+                                            farthest(to, from + count)};
     Vec3 p[4];
-    for (int k = 0; k < 4; ++k) p[k] = position_of(s_, corner[k]);
+    for (int k = 0; k < 4; ++k) p[k] = remesh::position_of(s_, corner[k]);
     const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
     for (int k = 0; k < 4; ++k) {
       const Vec3 x = p[(k + 1) % 4] - p[k], y = p[(k + 3) % 4] - p[k];
@@ -129,18 +130,19 @@ class Maker {
                       straight_share * area_of(part))
         return triangle(part, loop, corner, k);
     }
-    for (const SurfacePoint& point : corner) add_half(add_vertex(point, true), true);
+    for (const remesh::SurfacePoint& point : corner) add_half(add_vertex(point, true), true);
   }
 
  private:
   // Three quads around a point in the middle. The outline has three corners; corner `flat` of the four is none.
-  void triangle(const Part& part, const Table<std::int32_t>& loop, const SurfacePoint (&corner)[4], int flat) {
+  void triangle(const Part& part, const remesh::Table<std::int32_t>& loop, const remesh::SurfacePoint (&corner)[4],
+                int flat) {
     std::int32_t tip[3], side[3];  // side k is between tips k and k + 1
     Vec3 middle{};
     for (int k = 0; k < 3; ++k) {
-      const SurfacePoint& point = corner[(flat + 1 + k) % 4];
+      const remesh::SurfacePoint& point = corner[(flat + 1 + k) % 4];
       tip[k] = add_vertex(point, true);
-      middle = middle + (1.0 / 3) * position_of(s_, point);
+      middle = middle + (1.0 / 3) * remesh::position_of(s_, point);
     }
     for (int k = 0; k < 3; ++k) {
       side[k] = add_vertex(halfway(loop, corner[(flat + 1 + k) % 4], corner[(flat + 1 + (k + 1) % 3) % 4]), true);
@@ -155,17 +157,18 @@ class Maker {
     for (int k = 0; k < 3; ++k) out_.join(first + 4 * k + 1, first + 4 * ((k + 1) % 3) + 2);
   }
   // The point of the border loop halfway from one point to another one.
-  SurfacePoint halfway(const Table<std::int32_t>& loop, const SurfacePoint& from, const SurfacePoint& to) const {
-    const Vec3 p = position_of(s_, from), q = position_of(s_, to);
+  remesh::SurfacePoint halfway(const remesh::Table<std::int32_t>& loop, const remesh::SurfacePoint& from,
+                               const remesh::SurfacePoint& to) const {
+    const Vec3 p = remesh::position_of(s_, from), q = remesh::position_of(s_, to);
     const Vec3 middle = 0.5 * (p + q), way = q - p;
-    SurfacePoint best;
+    remesh::SurfacePoint best;
     double least = HUGE_VAL;
     for (const std::int32_t h : loop) {
       // Where the plane halfway between the two cuts the edge.
       const double a = dot(s_.position[s_.tail[h]] - middle, way), b = dot(s_.position[s_.head(h)] - middle, way);
       if ((a < 0) == (b < 0)) continue;
-      const SurfacePoint place = at_tail(h, a / (a - b));
-      const double away = norm(position_of(s_, place) - middle);
+      const remesh::SurfacePoint place = at_tail(h, a / (a - b));
+      const double away = norm(remesh::position_of(s_, place) - middle);
       if (away < least) {
         least = away;
         best = place;
@@ -174,8 +177,8 @@ class Maker {
     return best;
   }
   static constexpr double corner_share = 0.6;  // 1 / sqrt(3) on a sphere
-  static SurfacePoint at_tail(std::int32_t h, double share) {
-    SurfacePoint point;
+  static remesh::SurfacePoint at_tail(std::int32_t h, double share) {
+    remesh::SurfacePoint point;
     point.triangle = h / 3;
     point.weight[h % 3] = 1 - share;
     point.weight[(h % 3 + 1) % 3] = share;
@@ -189,12 +192,12 @@ class Maker {
     }
     return area;
   }
-  SurfacePoint nearest(const Part& part, Vec3 p) const {
-    SurfacePoint point;
+  remesh::SurfacePoint nearest(const Part& part, Vec3 p) const {
+    remesh::SurfacePoint point;
     double best = HUGE_VAL, weight[3];
     for (const std::int32_t t : part.triangles) {
       const auto corner = [&](std::int32_t k) { return s_.position[s_.tail[3 * t + k]]; };
-      const double squared = squared_to_triangle(p, corner(0), corner(1), corner(2), weight);
+      const double squared = mesh::squared_to_triangle(p, corner(0), corner(1), corner(2), weight);
       if (squared < best) {
         best = squared;
         point.triangle = t;
@@ -203,9 +206,9 @@ class Maker {
     }
     return point;
   }
-  std::int32_t add_vertex(const SurfacePoint& point, bool border) {
-    return out_.vertices.add_vertex(point, position_of(s_, point), border ? QuadMesh::feature : QuadMesh::free, border,
-                                    1);
+  std::int32_t add_vertex(const remesh::SurfacePoint& point, bool border) {
+    return out_.vertices.add_vertex(point, remesh::position_of(s_, point),
+                                    border ? remesh::QuadMesh::feature : remesh::QuadMesh::free, border, 1);
   }
   void add_half(std::int32_t v, bool border) {
     out_.tail.push_back(v);
@@ -213,15 +216,15 @@ class Maker {
     out_.feature.push_back(border);
   }
 
-  const FluxSurface& s_;
+  const remesh::FluxSurface& s_;
   QuadComplex& out_;
   Memory& memory_;
 };
 
 }  // namespace
 
-QuadComplex least_quads(const FluxSurface& surface, const Table<double>& areas, Table<std::uint8_t>& take,
-                        Memory& memory) {
+QuadComplex least_quads(const remesh::FluxSurface& surface, const remesh::Table<double>& areas,
+                        remesh::Table<std::uint8_t>& take, Memory& memory) {
   QuadComplex out(memory);
   if (std::find(take.begin(), take.end(), 1) == take.end()) return out;
   Vector<Part> parts(&memory);
@@ -265,4 +268,4 @@ QuadComplex least_quads(const FluxSurface& surface, const Table<double>& areas, 
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -5,7 +5,7 @@
 
 #include "field/connection.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 using Complex = std::complex<double>;
 constexpr std::int32_t none = -1;
@@ -16,8 +16,8 @@ constexpr double no_factor = 1e-9;
 
 // Returns z at length 1, or `otherwise` for 0.
 inline Complex unit_of(Complex z, Complex otherwise) noexcept {
-  const double length = length_of(z);
+  const double length = field::length_of(z);
   return length > 0 ? z / length : otherwise;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // Pairs farther apart than so many edge lengths stay. More leaves out more of the curvature. At a smooth_radius of 2.8,
@@ -26,7 +26,8 @@ struct Nearest {
   Vector<double> distance;
 };
 
-Nearest find_nearest(const Core& core, const Table<std::int32_t>& index, double reach, Memory& memory) {
+Nearest find_nearest(const surface::Core& core, const remesh::Table<std::int32_t>& index, double reach,
+                     Memory& memory) {
   struct Reached {
     double distance;
     Index vertex, of;
@@ -40,7 +41,7 @@ Nearest find_nearest(const Core& core, const Table<std::int32_t>& index, double 
     if (index[v] != 0) heap.push_back({0, v, v});
   }
   std::make_heap(heap.begin(), heap.end());
-  const Topology& topology = core.topology();
+  const mesh::Topology& topology = core.topology();
   Poller poller;
   while (!heap.empty()) {
     poller.due();
@@ -68,10 +69,10 @@ struct Pair {
 };
 
 // Opposite singularities, the nearest first, each in one pair at most.
-Vector<Pair> find_pairs(const Core& core, const Nearest& nearest, const Table<std::int32_t>& index, double far,
-                        Memory& memory) {
+Vector<Pair> find_pairs(const surface::Core& core, const Nearest& nearest, const remesh::Table<std::int32_t>& index,
+                        double far, Memory& memory) {
   Vector<Pair> all(&memory), out(&memory);
-  const Topology& topology = core.topology();
+  const mesh::Topology& topology = core.topology();
   for (Index e = 0; e < topology.edge_count(); ++e) {
     const Index p = topology.first(e), q = topology.second(e), a = nearest.of[at(p)], b = nearest.of[at(q)];
     if (a == none || b == none || index[a] + index[b] != 0 || a == b) continue;
@@ -82,7 +83,7 @@ Vector<Pair> find_pairs(const Core& core, const Nearest& nearest, const Table<st
   std::sort(all.begin(), all.end(), [](const Pair& x, const Pair& y) {
     return x.distance != y.distance ? x.distance < y.distance : x.a != y.a ? x.a < y.a : x.b < y.b;
   });
-  Table<std::uint8_t> taken(core.size(), 0, memory);
+  remesh::Table<std::uint8_t> taken(core.size(), 0, memory);
   for (const Pair& pair : all) {
     if (taken[pair.a] || taken[pair.b]) continue;
     taken[pair.a] = taken[pair.b] = 1;
@@ -93,37 +94,37 @@ Vector<Pair> find_pairs(const Core& core, const Nearest& nearest, const Table<st
 
 }  // namespace
 
-void leave_out_pairs(const FluxSurface& surface, const DirectionMatrix& system, CrossSmoother& smoother,
-                     Span<const HardCross> hard, const Table<std::uint8_t>& features, const SharpCorners& corners,
-                     double edge_length, Vector<Complex>& wish) {
-  const Core& core = *system.core;
+void leave_out_pairs(const remesh::FluxSurface& surface, const field::DirectionMatrix& system, CrossSmoother& smoother,
+                     Span<const HardCross> hard, const remesh::Table<std::uint8_t>& features,
+                     const SharpCorners& corners, double edge_length, Vector<Complex>& wish) {
+  const surface::Core& core = *system.core;
   Memory& memory = *core.memory;
   const auto find_index = [&](float from, float to) {
     const ProgressRange range(from, to);
     const Vector<Complex> crosses = smoother.smooth(wish, hard);
     const FaceCross faces =
-        FaceCross::make(surface, system.connection, crosses, features, corners, Table<Complex>(memory), memory);
-    Table<std::int32_t> out(core.size(), 0, memory);  // a vertex of the mesh can be several of the surface
+        FaceCross::make(surface, system.connection, crosses, features, corners, remesh::Table<Complex>(memory), memory);
+    remesh::Table<std::int32_t> out(core.size(), 0, memory);  // a vertex of the mesh can be several of the surface
     for (std::int32_t v = 0; v < surface.first_apex; ++v) out[surface.mesh_vertex[v]] += faces.index[v];
     return out;
   };
-  const Table<std::int32_t> before = find_index(0.0f, 0.5f);
+  const remesh::Table<std::int32_t> before = find_index(0.0f, 0.5f);
   const double far = farthest * edge_length, beyond = margin * edge_length;
   const Nearest nearest = find_nearest(core, before, far / 2 + beyond, memory);
   const Vector<Pair> pairs = find_pairs(core, nearest, before, far, memory);
   if (pairs.empty()) return;
-  Table<Index> pair_of(core.size(), none, memory);  // by singularity
+  remesh::Table<Index> pair_of(core.size(), none, memory);  // by singularity
   for (std::size_t i = 0; i < pairs.size(); ++i) pair_of[pairs[i].a] = pair_of[pairs[i].b] = static_cast<Index>(i);
   const Vector<Complex> old(wish.begin(), wish.end(), &memory);
-  Table<Index> left_out(core.size(), none, memory);  // by vertex: the pair for which its wish is left out
+  remesh::Table<Index> left_out(core.size(), none, memory);  // by vertex: the pair for which its wish is left out
   for (Index v = 0; v < core.size(); ++v) {
     const Index s = nearest.of[at(v)], i = s == none ? none : pair_of[s];
     if (i == none || nearest.distance[at(v)] > pairs[at(i)].distance / 2 + beyond) continue;
     left_out[v] = i;
     wish[at(v)] = 0;
   }
-  const Table<std::int32_t> after = find_index(0.5f, 1.0f);
-  Table<std::int32_t> gain(static_cast<std::int32_t>(pairs.size()), 0, memory);
+  const remesh::Table<std::int32_t> after = find_index(0.5f, 1.0f);
+  remesh::Table<std::int32_t> gain(static_cast<std::int32_t>(pairs.size()), 0, memory);
   for (Index v = 0; v < core.size(); ++v) {
     if (left_out[v] != none) gain[left_out[v]] += std::abs(before[v]) - std::abs(after[v]);
   }
@@ -132,4 +133,4 @@ void leave_out_pairs(const FluxSurface& surface, const DirectionMatrix& system, 
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

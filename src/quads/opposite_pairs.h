@@ -7,12 +7,12 @@
 #include "quads/cross_field.h"
 #include "quads/face_cross.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // edge_length: of the quads, or of the surface where its edges are longer. wish, hard: as CrossSmoother has them.
 // features: by half-edge.
-void leave_out_pairs(const FluxSurface& surface, const DirectionMatrix& system, CrossSmoother& smoother,
-                     Span<const HardCross> hard, const Table<std::uint8_t>& features, const SharpCorners& corners,
-                     double edge_length, Vector<std::complex<double>>& wish);
+void leave_out_pairs(const remesh::FluxSurface& surface, const field::DirectionMatrix& system, CrossSmoother& smoother,
+                     Span<const HardCross> hard, const remesh::Table<std::uint8_t>& features,
+                     const SharpCorners& corners, double edge_length, Vector<std::complex<double>>& wish);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

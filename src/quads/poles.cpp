@@ -8,7 +8,7 @@
 #include "field/vector_field.h"
 #include "remesh/relax.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // A direction whose part along the surface is a smaller share of it says little: the noise of the normal decides.
@@ -30,7 +30,7 @@ constexpr int pole_walks = 2;
 // and 6 rings and with 2 rounds it is at most 1.39, with 10 rounds 1.43.
 constexpr std::int32_t pole_rings = 3, pole_rounds = 5;
 
-Index nearest_vertex(const Mesh& mesh, Vec3 place) noexcept {
+Index nearest_vertex(const mesh::Mesh& mesh, Vec3 place) noexcept {
   Index nearest = 0;
   double least = -1;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -45,7 +45,7 @@ Index nearest_vertex(const Mesh& mesh, Vec3 place) noexcept {
 
 // Calls use(triangle) for the triangles at a vertex, those with two edges there twice.
 template <class Use>
-void for_triangles(const Topology& topology, Index v, Use&& use) {
+void for_triangles(const mesh::Topology& topology, Index v, Use&& use) {
   for (Index k = topology.neighbour_start[at(v)]; k < topology.neighbour_start[at(v) + 1]; ++k) {
     const std::size_t e = at(topology.neighbour_edge[at(k)]);
     for (Index i = topology.edge_triangle_start[e]; i < topology.edge_triangle_start[e + 1]; ++i)
@@ -54,7 +54,7 @@ void for_triangles(const Topology& topology, Index v, Use&& use) {
 }
 
 // A point of the triangles at a vertex near a place, which may hover beside them.
-Vec3 onto(const Core& core, Index vertex, Vec3 place) {
+Vec3 onto(const surface::Core& core, Index vertex, Vec3 place) {
   Vec3 nearest = core.mesh.positions[at(vertex)];
   double least = norm(nearest - place);
   for_triangles(core.topology(), vertex, [&](Index t) {
@@ -79,9 +79,9 @@ Vec3 onto(const Core& core, Index vertex, Vec3 place) {
 
 // The vertices that are edge-connected to the first one within a radius of a point, and those beside them.
 struct PoleRing {
-  PoleRing(const Core& core, Index first, Vec3 point, double radius, Memory& memory)
+  PoleRing(const surface::Core& core, Index first, Vec3 point, double radius, Memory& memory)
       : inside(&memory), around(&memory) {
-    const Topology& topology = core.topology();
+    const mesh::Topology& topology = core.topology();
     Vector<std::uint8_t> seen(at(core.size()), 0, &memory);
     inside.push_back(first);
     seen[at(first)] = 1;
@@ -118,7 +118,7 @@ Vec3 turned(Vec3 vector, Vec3 up, Vec3 normal) noexcept {
 
 }  // namespace
 
-void add_pole_guides(const Core& core, Span<const QuadPole> poles, double radius, Vector<QuadGuide>& out) {
+void add_pole_guides(const surface::Core& core, Span<const QuadPole> poles, double radius, Vector<QuadGuide>& out) {
   for (std::size_t i = 0; i < poles.size(); ++i) {
     poll();
     const QuadPole& pole = poles[i];
@@ -126,7 +126,7 @@ void add_pole_guides(const Core& core, Span<const QuadPole> poles, double radius
     const Vec3 point = onto(core, first, pole.place);
     const PoleRing ring(core, first, point, radius, *core.memory);
     Vec3 up;
-    for (const Index v : ring.inside) up = up + core.areas[at(v)] * vertex_normal(core.mesh, core.topology(), v);
+    for (const Index v : ring.inside) up = up + core.areas[at(v)] * field::vertex_normal(core.mesh, core.topology(), v);
     up = unit_vector(up);
     if (!(norm(up) > 0))
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
@@ -136,18 +136,19 @@ void add_pole_guides(const Core& core, Span<const QuadPole> poles, double radius
       const Vec3 arm = core.mesh.positions[at(v)] - point;
       const double angle = 0.25 * (4 - pole.quads) * arc_tangent(dot(arm, y), dot(arm, x));
       const Vec3 vector = cosine(angle) * x + sine(angle) * y;
-      out.push_back({v, turned(vector, up, vertex_normal(core.mesh, core.topology(), v)), 1.0, QuadGuide::of_pole});
+      out.push_back(
+          {v, turned(vector, up, field::vertex_normal(core.mesh, core.topology(), v)), 1.0, QuadGuide::of_pole});
     }
   }
 }
 
-std::int32_t hold_poles(const FluxSurface& surface, Span<const QuadPole> poles, double edge_length, QuadMesh& mesh,
-                        Memory& memory) {
+std::int32_t hold_poles(const remesh::FluxSurface& surface, Span<const QuadPole> poles, double edge_length,
+                        remesh::QuadMesh& mesh, Memory& memory) {
   if (poles.empty()) return 0;
   const std::int32_t n = mesh.position.size();
-  Table<std::int32_t> valence(n, 0, memory);
+  remesh::Table<std::int32_t> valence(n, 0, memory);
   for (const std::int32_t v : mesh.corner) ++valence[v];
-  Table<std::uint8_t> moving(n, 0, memory);
+  remesh::Table<std::uint8_t> moving(n, 0, memory);
   std::int32_t held = 0;
   for (const QuadPole& pole : poles) {
     std::int32_t best = -1;
@@ -162,21 +163,21 @@ std::int32_t hold_poles(const FluxSurface& surface, Span<const QuadPole> poles, 
     if (best < 0) continue;
     // Each walk along the surface ends nearer to the place: it starts in another tangent plane.
     for (int walk = 0; walk < pole_walks; ++walk) {
-      mesh.location[best] = walk_surface(surface, mesh.location[best], pole.place - mesh.position[best]);
-      mesh.position[best] = position_of(surface, mesh.location[best]);
+      mesh.location[best] = remesh::walk_surface(surface, mesh.location[best], pole.place - mesh.position[best]);
+      mesh.position[best] = remesh::position_of(surface, mesh.location[best]);
     }
-    mesh.pinned[best] = QuadMesh::feature;
+    mesh.pinned[best] = remesh::QuadMesh::feature;
     moving[best] = 1;
     ++held;
   }
   if (held == 0) return 0;
-  grow_marks(mesh, pole_rings, moving);
-  RelaxOptions relax;
+  remesh::grow_marks(mesh, pole_rings, moving);
+  remesh::RelaxOptions relax;
   relax.rounds = pole_rounds;
   relax.edge_length = edge_length;
   relax.moving = &moving;
-  relax_quads(surface, mesh, relax, memory);
+  remesh::relax_quads(surface, mesh, relax, memory);
   return held;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -6,7 +6,7 @@
 #include "quads/field_quads.h"
 #include "quads/opposite_pairs.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // field_quads.cpp names the runs of the other values below.
@@ -32,13 +32,13 @@ constexpr std::int32_t least_passes = 2, most_passes = 20;
 
 }  // namespace
 
-QuadBase::QuadBase(std::shared_ptr<const Core> given)
+QuadBase::QuadBase(std::shared_ptr<const surface::Core> given)
     : core(std::move(given)),
-      surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
+      surface(remesh::FluxSurface::make(core->mesh, core->topology(), *core->memory)),
       apart(surface, *core->memory),
       area(area_of(surface)),
       curvature(core->memory.get()) {
-  const Topology& topology = core->topology();
+  const mesh::Topology& topology = core->topology();
   for (Index e = 0; e < topology.edge_count(); ++e)
     mean_edge += norm(core->mesh.positions[at(topology.second(e))] - core->mesh.positions[at(topology.first(e))]);
   mean_edge /= std::max(topology.edge_count(), 1);
@@ -60,7 +60,7 @@ void QuadBase::prepare(double edge_length, double facet) {
   passes = -1;
   curvature = curvature_crosses(*core, system->connection, wanted);
   if (fine) {
-    const Table<std::uint8_t> borders = find_features(surface, HUGE_VAL, *core->memory);
+    const remesh::Table<std::uint8_t> borders = find_features(surface, HUGE_VAL, *core->memory);
     const SharpCorners corners = SharpCorners::find(surface, borders, edge_length, *core->memory);
     const Vector<HardCross> hard = feature_crosses(*core, surface, system->connection, borders, corners, wanted);
     leave_out_pairs(surface, *system, *smoother, hard, borders, corners, length, curvature);
@@ -68,7 +68,7 @@ void QuadBase::prepare(double edge_length, double facet) {
   passes = wanted;
 }
 
-const QuadDistance& QuadBase::distance(double spacing) {
+const remesh::QuadDistance& QuadBase::distance(double spacing) {
   if (!distance_ || spacing_ != spacing) {
     distance_.reset();
     distance_.emplace(surface, spacing, *core->memory, core->jobs.get());
@@ -77,4 +77,4 @@ const QuadDistance& QuadBase::distance(double spacing) {
   return *distance_;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

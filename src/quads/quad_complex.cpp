@@ -8,7 +8,7 @@
 #include "quads/numbers.h"
 #include "remesh/relax.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // Quads of a component with less than this share of its area have lost most of it: a rod that is thinner than the lines
@@ -19,9 +19,9 @@ constexpr double least_area = 0.6;
 }  // namespace
 
 void QuadComplex::split_fans(Memory& memory) {
-  QuadMesh old = std::move(vertices);
-  vertices = QuadMesh(memory);
-  Table<std::int32_t> fresh(tail.size(), none, memory);
+  remesh::QuadMesh old = std::move(vertices);
+  vertices = remesh::QuadMesh(memory);
+  remesh::Table<std::int32_t> fresh(tail.size(), none, memory);
   for (std::int32_t start = 0; start < tail.size(); ++start) {
     if (fresh[start] != none) continue;
     const std::int32_t v = tail[start];
@@ -48,8 +48,8 @@ void QuadComplex::split_fans(Memory& memory) {
   tail = std::move(fresh);
 }
 
-void QuadComplex::remove(const Table<std::uint8_t>& dead, Memory& memory) {
-  Table<std::int32_t> place(quad_count(), none, memory);
+void QuadComplex::remove(const remesh::Table<std::uint8_t>& dead, Memory& memory) {
+  remesh::Table<std::int32_t> place(quad_count(), none, memory);
   std::int32_t count = 0;
   for (std::int32_t f = 0; f < quad_count(); ++f) {
     if (!dead[f]) place[f] = count++;
@@ -68,13 +68,14 @@ void QuadComplex::remove(const Table<std::uint8_t>& dead, Memory& memory) {
   twin.resize(4 * count, none);
 }
 
-void QuadComplex::append(const QuadComplex& other, const Table<std::uint8_t>& take, Memory& memory) {
-  Table<std::int32_t> place(other.quad_count(), none, memory), vertex(other.vertices.position.size(), none, memory);
+void QuadComplex::append(const QuadComplex& other, const remesh::Table<std::uint8_t>& take, Memory& memory) {
+  remesh::Table<std::int32_t> place(other.quad_count(), none, memory),
+      vertex(other.vertices.position.size(), none, memory);
   std::int32_t count = quad_count();
   for (std::int32_t f = 0; f < other.quad_count(); ++f) {
     if (take[f]) place[f] = count++;
   }
-  const QuadMesh& from = other.vertices;
+  const remesh::QuadMesh& from = other.vertices;
   for (std::int32_t h = 0; h < other.tail.size(); ++h) {
     if (place[h / 4] == none) continue;
     const std::int32_t v = other.tail[h], g = other.twin[h];
@@ -87,9 +88,9 @@ void QuadComplex::append(const QuadComplex& other, const Table<std::uint8_t>& ta
   }
 }
 
-QuadMesh QuadComplex::mesh(Memory& memory) const {
-  QuadMesh out(memory);
-  Table<std::int32_t> fresh(vertices.position.size(), none, memory);
+remesh::QuadMesh QuadComplex::mesh(Memory& memory) const {
+  remesh::QuadMesh out(memory);
+  remesh::Table<std::int32_t> fresh(vertices.position.size(), none, memory);
   for (std::int32_t h = 0; h < tail.size(); ++h) {
     const std::int32_t v = tail[h];
     if (fresh[v] == none)
@@ -105,8 +106,9 @@ double QuadComplex::area(std::int32_t f) const noexcept {
   return 0.5 * (norm(cross(p(1) - p(0), p(2) - p(0))) + norm(cross(p(2) - p(0), p(3) - p(0))));
 }
 
-Table<std::int32_t> components_of(const FluxSurface& surface, const QuadComplex& quads, Memory& memory) {
-  Table<std::int32_t> out(quads.quad_count(), 0, memory);
+remesh::Table<std::int32_t> components_of(const remesh::FluxSurface& surface, const QuadComplex& quads,
+                                          Memory& memory) {
+  remesh::Table<std::int32_t> out(quads.quad_count(), 0, memory);
   for (std::int32_t f = 0; f < out.size(); ++f)
     out[f] = surface.component[surface.tail[3 * quads.vertices.location[quads.tail[4 * f]].triangle]];
   return out;
@@ -125,22 +127,23 @@ Vector<QuadEdge> edges_of(const QuadComplex& quads, Memory& memory) {
   return out;
 }
 
-Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& quads,
-                               const Table<std::int32_t>& component, const Table<double>& areas, Memory& memory) {
+remesh::Table<std::uint8_t> find_sound(const remesh::FluxSurface& surface, const QuadComplex& quads,
+                                       const remesh::Table<std::int32_t>& component, const remesh::Table<double>& areas,
+                                       Memory& memory) {
   // By component: the Euler characteristic of the surface less the characteristic of the quads, and the pieces of the
   // quads.
-  Table<std::int32_t> euler(surface.component_count, 0, memory), pieces(surface.component_count, 0, memory);
+  remesh::Table<std::int32_t> euler(surface.component_count, 0, memory), pieces(surface.component_count, 0, memory);
   for (std::int32_t v = 0; v < surface.first_apex; ++v) ++euler[surface.component[v]];
   for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
     std::int32_t& e = euler[surface.component[surface.tail[h]]];
     e += h % 3 == 0;
     e -= !surface.is_real(surface.twin[h]) || h < surface.twin[h];
   }
-  Table<double> area(areas.size(), 0.0, memory);  // of the quads, by component
+  remesh::Table<double> area(areas.size(), 0.0, memory);  // of the quads, by component
   for (std::int32_t f = 0; f < quads.quad_count(); ++f) area[component[f]] += quads.area(f);
-  Table<std::uint8_t> seen(quads.vertices.position.size(), 0, memory);
-  Table<std::uint8_t> reached(quads.quad_count(), 0, memory);
-  Table<std::int32_t> stack(memory);
+  remesh::Table<std::uint8_t> seen(quads.vertices.position.size(), 0, memory);
+  remesh::Table<std::uint8_t> reached(quads.quad_count(), 0, memory);
+  remesh::Table<std::int32_t> stack(memory);
   for (std::int32_t start = 0; start < quads.quad_count(); ++start) {
     if (reached[start]) continue;
     ++pieces[component[start]];
@@ -164,7 +167,7 @@ Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& qu
       }
     }
   }
-  Table<std::uint8_t> out(surface.component_count, 0, memory);
+  remesh::Table<std::uint8_t> out(surface.component_count, 0, memory);
   for (std::int32_t c = 0; c < out.size(); ++c)
     out[c] = euler[c] == 0 && pieces[c] == 1 && area[c] >= least_area * areas[c];
   const Vector<QuadEdge> edges = edges_of(quads, memory);
@@ -178,10 +181,10 @@ Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& qu
   return out;
 }
 
-QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t>& features,
-                            const Table<std::uint8_t>& take, Memory& memory) {
+QuadComplex split_triangles(const remesh::FluxSurface& surface, const remesh::Table<std::uint8_t>& features,
+                            const remesh::Table<std::uint8_t>& take, Memory& memory) {
   QuadComplex out(memory);
-  Table<std::int32_t> place(surface.real_triangles, none, memory);
+  remesh::Table<std::int32_t> place(surface.real_triangles, none, memory);
   std::int32_t count = 0;
   for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
     if (take[surface.component[surface.tail[3 * t]]]) place[t] = count++;
@@ -190,11 +193,11 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
   out.feature.assign(12 * count, 0);
   out.tail.reserve(12 * count);
   // Triangles share the points of their corners and sides. Fans that only touch are parted at the end.
-  Table<std::int32_t> at_corner(surface.vertex_count(), none, memory),
+  remesh::Table<std::int32_t> at_corner(surface.vertex_count(), none, memory),
       at_side(3 * surface.real_triangles, none, memory);
-  Table<std::uint8_t> held(surface.vertex_count(), 0, memory);
+  remesh::Table<std::uint8_t> held(surface.vertex_count(), 0, memory);
   for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
-    if (features[h]) held[surface.tail[h]] = held[surface.tail[FluxSurface::next(h)]] = 1;
+    if (features[h]) held[surface.tail[h]] = held[surface.tail[remesh::FluxSurface::next(h)]] = 1;
   }
   for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
     if (place[t] == none) continue;
@@ -203,13 +206,13 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
       const std::int32_t h = 3 * t + k, before = (k + 2) % 3, q = 3 * place[t] + k, g = surface.twin[h];
       const auto add = [&](std::int32_t& vertex, double at_k, double at_next, double at_last, bool on_feature) {
         if (vertex == none) {
-          SurfacePoint point;
+          remesh::SurfacePoint point;
           point.triangle = t;
           point.weight[k] = at_k;
           point.weight[(k + 1) % 3] = at_next;
           point.weight[before] = at_last;
-          vertex = out.vertices.add_vertex(point, position_of(surface, point),
-                                           on_feature ? QuadMesh::feature : QuadMesh::free, false, 1);
+          vertex = out.vertices.add_vertex(point, remesh::position_of(surface, point),
+                                           on_feature ? remesh::QuadMesh::feature : remesh::QuadMesh::free, false, 1);
         }
         out.tail.push_back(vertex);
       };
@@ -232,4 +235,4 @@ QuadComplex split_triangles(const FluxSurface& surface, const Table<std::uint8_t
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -5,7 +5,7 @@
 #include "quads/quad_complex.h"
 #include "remesh/relax.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // Two edges between the same vertices that bound at most this many quads are a fold, and the quads go. A larger number
@@ -24,8 +24,8 @@ constexpr double pillow_share = 0.35;
 }  // namespace
 
 std::int32_t remove_doublets(QuadComplex& quads, Memory& memory) {
-  Table<std::uint8_t> dead(quads.quad_count(), 0, memory);
-  Table<std::int32_t> queue(memory);
+  remesh::Table<std::uint8_t> dead(quads.quad_count(), 0, memory);
+  remesh::Table<std::int32_t> queue(memory);
   const auto next = QuadComplex::next, previous = QuadComplex::previous;
   std::int32_t removed = 0;
   for (std::int32_t h = 0; h < quads.tail.size(); ++h) queue.push_back(h);
@@ -84,7 +84,7 @@ namespace {
 
 class Repairer {
  public:
-  Repairer(const FluxSurface& surface, QuadComplex& quads, Memory& memory)
+  Repairer(const remesh::FluxSurface& surface, QuadComplex& quads, Memory& memory)
       : surface_(surface),
         quads_(quads),
         memory_(memory),
@@ -129,13 +129,13 @@ class Repairer {
     for (std::int32_t h = hole.half;;) {
       const std::int32_t g = quads_.twin[h];
       if (pillow(h)) {
-        const SurfacePoint from = [&] {
-          SurfacePoint point;
+        const remesh::SurfacePoint from = [&] {
+          remesh::SurfacePoint point;
           point.triangle = hole.border / 3;
           point.weight[hole.border % 3] = 1;
           return point;
         }();
-        SurfacePoint thirds[2];
+        remesh::SurfacePoint thirds[2];
         points_between(from, from, true, thirds);
         quads_.twin[h] = quads_.twin[g] = none;
         quads_.feature[h] = quads_.feature[g] = 1;
@@ -150,11 +150,11 @@ class Repairer {
   }
 
  private:
-  void place(std::int32_t v, const SurfacePoint& point) {
-    QuadMesh& all = quads_.vertices;
+  void place(std::int32_t v, const remesh::SurfacePoint& point) {
+    remesh::QuadMesh& all = quads_.vertices;
     all.location[v] = point;
-    all.position[v] = position_of(surface_, point);
-    all.pinned[v] = QuadMesh::feature;
+    all.position[v] = remesh::position_of(surface_, point);
+    all.pinned[v] = remesh::QuadMesh::feature;
     all.border[v] = 1;
   }
   bool widen(std::int32_t h) { return quads_.twin[h] == none ? split_border(h) : pillow(h); }
@@ -175,16 +175,16 @@ class Repairer {
     const std::int32_t v = quads_.tail[h], w = quads_.head(h), a = quads_.tail[sides[1]], b = quads_.tail[sides[2]];
     std::uint8_t feature[3];
     for (int k = 0; k < 3; ++k) feature[k] = quads_.feature[sides[k]];
-    SurfacePoint thirds[2];
+    remesh::SurfacePoint thirds[2];
     points_between(quads_.vertices.location[v], quads_.vertices.location[w], v == w, thirds);
     std::int32_t fresh[3];
     for (int k = 0; k < 2; ++k)
-      fresh[k] = quads_.vertices.add_vertex(thirds[k], position_of(surface_, thirds[k]), quads_.vertices.pinned[v],
-                                            true, quads_.vertices.scale[v]);
+      fresh[k] = quads_.vertices.add_vertex(thirds[k], remesh::position_of(surface_, thirds[k]),
+                                            quads_.vertices.pinned[v], true, quads_.vertices.scale[v]);
     const Vec3 from = quads_.vertices.position[a];
-    const SurfacePoint inside =
-        walk_surface(surface_, quads_.vertices.location[a], 0.5 * (quads_.vertices.position[fresh[0]] - from));
-    fresh[2] = quads_.vertices.add_vertex(inside, position_of(surface_, inside), QuadMesh::free, false,
+    const remesh::SurfacePoint inside =
+        remesh::walk_surface(surface_, quads_.vertices.location[a], 0.5 * (quads_.vertices.position[fresh[0]] - from));
+    fresh[2] = quads_.vertices.add_vertex(inside, remesh::position_of(surface_, inside), remesh::QuadMesh::free, false,
                                           quads_.vertices.scale[a]);
     const std::int32_t p = fresh[0], q = fresh[1], c = fresh[2], first = quads_.tail.size();
     const auto set = [&](std::int32_t half, std::int32_t tail, std::uint8_t is_feature) {
@@ -217,7 +217,7 @@ class Repairer {
     return true;
   }
   // The border half-edge of the surface on which a point lies, or none.
-  std::int32_t border_of(const SurfacePoint& point) const noexcept {
+  std::int32_t border_of(const remesh::SurfacePoint& point) const noexcept {
     for (int k = 0; k < 3; ++k) {
       const std::int32_t h = 3 * point.triangle + k;
       if (!surface_.is_real(surface_.twin[h]) && point.weight[(k + 2) % 3] == 0) return h;
@@ -225,18 +225,19 @@ class Repairer {
     return none;
   }
   // Two points on the border, at a third and at two thirds of the way from one point to another, or right round.
-  void points_between(const SurfacePoint& from, const SurfacePoint& to, bool round, SurfacePoint* out) const {
+  void points_between(const remesh::SurfacePoint& from, const remesh::SurfacePoint& to, bool round,
+                      remesh::SurfacePoint* out) const {
     out[0] = from;
     out[1] = to;
     const std::int32_t begin = border_of(from), end = border_of(to);
     if (begin == none || end == none) return;
-    const auto share = [](const SurfacePoint& point, std::int32_t h) { return point.weight[(h % 3 + 1) % 3]; };
+    const auto share = [](const remesh::SurfacePoint& point, std::int32_t h) { return point.weight[(h % 3 + 1) % 3]; };
     // The pieces of edges on the way, and their lengths together.
     struct Piece {
       std::int32_t half;
       double from, to, length;
     };
-    Table<Piece> way(memory_);
+    remesh::Table<Piece> way(memory_);
     double whole = 0, at = share(from, begin);
     for (std::int32_t h = begin;;) {
       const bool last = h == end && (round ? !way.empty() : share(to, end) >= at);
@@ -245,9 +246,9 @@ class Repairer {
       way.push_back({h, at, stop, (stop - at) * length});
       whole += way.back().length;
       if (last) break;
-      h = FluxSurface::next(h);
+      h = remesh::FluxSurface::next(h);
       at = 0;
-      while (surface_.is_real(surface_.twin[h])) h = FluxSurface::next(surface_.twin[h]);
+      while (surface_.is_real(surface_.twin[h])) h = remesh::FluxSurface::next(surface_.twin[h]);
       if (h == begin && h != end) return;  // the other point lies on another border
     }
     double passed = 0;
@@ -256,7 +257,7 @@ class Repairer {
       for (; found < 2 && passed + piece.length >= (found + 1) * whole / 3 && piece.length > 0; ++found) {
         const double step = ((found + 1) * whole / 3 - passed) / piece.length,
                      place = piece.from + step * (piece.to - piece.from);
-        SurfacePoint point;
+        remesh::SurfacePoint point;
         point.triangle = piece.half / 3;
         point.weight[piece.half % 3] = 1 - place;
         point.weight[(piece.half % 3 + 1) % 3] = place;
@@ -287,7 +288,7 @@ class Repairer {
       for (std::int32_t h = next(g); h != g; h = next(h)) rim[count++] = h;
       mark_[f] = mark_[g / 4] = pillowed_;
     }
-    const QuadMesh& old = quads_.vertices;
+    const remesh::QuadMesh& old = quads_.vertices;
     std::int32_t corner[6], copy[6];
     Vec3 middle{};
     for (int k = 0; k < count; ++k) {
@@ -296,8 +297,10 @@ class Repairer {
     }
     for (int k = 0; k < count; ++k) {
       const std::int32_t v = corner[k];
-      const SurfacePoint point = walk_surface(surface_, old.location[v], pillow_share * (middle - old.position[v]));
-      copy[k] = quads_.vertices.add_vertex(point, position_of(surface_, point), QuadMesh::free, false, old.scale[v]);
+      const remesh::SurfacePoint point =
+          remesh::walk_surface(surface_, old.location[v], pillow_share * (middle - old.position[v]));
+      copy[k] = quads_.vertices.add_vertex(point, remesh::position_of(surface_, point), remesh::QuadMesh::free, false,
+                                           old.scale[v]);
     }
     const std::int32_t first = quads_.tail.size();
     for (int k = 0; k < count; ++k) {
@@ -327,7 +330,7 @@ class Repairer {
   }
 
   // Collects the quads on the left of `start` up to the two edges. Returns false if they are too many or no disc.
-  bool collect(std::int32_t start, std::int32_t e, std::int32_t f, Table<std::int32_t>& region) {
+  bool collect(std::int32_t start, std::int32_t e, std::int32_t f, remesh::Table<std::int32_t>& region) {
     ++stamp_;
     region.clear();
     region.push_back(start / 4);
@@ -358,7 +361,7 @@ class Repairer {
   }
 
   bool remove_fold(std::int32_t e, std::int32_t f, RepairReport& report) {
-    Table<std::int32_t> region(memory_);
+    remesh::Table<std::int32_t> region(memory_);
     for (const std::int32_t side : {e, quads_.twin[e]}) {
       if (side == none || dead_[side / 4] || !collect(side, e, f, region)) continue;
       // The half-edges of both edges that belong to the region; one each, or the edge is inside it.
@@ -389,20 +392,20 @@ class Repairer {
   }
 
   static constexpr std::int32_t pillowed_ = -1;
-  const FluxSurface& surface_;
+  const remesh::FluxSurface& surface_;
   QuadComplex& quads_;
   Memory& memory_;
-  Table<std::uint8_t> dead_;
-  Table<std::int32_t> mark_;
+  remesh::Table<std::uint8_t> dead_;
+  remesh::Table<std::int32_t> mark_;
   std::int32_t stamp_ = 0;
 };
 
 // Removes small closed pieces beside larger ones of the same component: lines of a fold that cross each other only.
-std::int32_t remove_islands(const FluxSurface& surface, QuadComplex& quads, Memory& memory) {
-  const Table<std::int32_t> component = components_of(surface, quads, memory);
-  Table<std::int32_t> piece(quads.quad_count(), none, memory), stack(memory), size(memory),
+std::int32_t remove_islands(const remesh::FluxSurface& surface, QuadComplex& quads, Memory& memory) {
+  const remesh::Table<std::int32_t> component = components_of(surface, quads, memory);
+  remesh::Table<std::int32_t> piece(quads.quad_count(), none, memory), stack(memory), size(memory),
       largest(surface.component_count, none, memory), of(memory);
-  Table<std::uint8_t> open(memory);
+  remesh::Table<std::uint8_t> open(memory);
   for (std::int32_t start = 0; start < piece.size(); ++start) {
     if (piece[start] != none) continue;
     const std::int32_t number = size.push_back(0);
@@ -427,7 +430,7 @@ std::int32_t remove_islands(const FluxSurface& surface, QuadComplex& quads, Memo
     std::int32_t& best = largest[of[number]];
     if (best == none || size[number] > size[best]) best = number;
   }
-  Table<std::uint8_t> dead(piece.size(), 0, memory);
+  remesh::Table<std::uint8_t> dead(piece.size(), 0, memory);
   std::int32_t removed = 0;
   for (std::int32_t f = 0; f < piece.size(); ++f) {
     const std::int32_t p = piece[f];
@@ -443,7 +446,7 @@ std::int32_t remove_islands(const FluxSurface& surface, QuadComplex& quads, Memo
 
 }  // namespace
 
-void repair_quads(const FluxSurface& surface, QuadComplex& quads, RepairReport& report, Memory& memory) {
+void repair_quads(const remesh::FluxSurface& surface, QuadComplex& quads, RepairReport& report, Memory& memory) {
   if (!quads.holes.empty()) {
     const std::int32_t before = quads.quad_count();
     Repairer repairer(surface, quads, memory);
@@ -461,4 +464,4 @@ void repair_quads(const FluxSurface& surface, QuadComplex& quads, RepairReport& 
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

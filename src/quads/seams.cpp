@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 int modulo(int k) noexcept { return k & 3; }
@@ -23,8 +23,9 @@ void add(SeamSum& sum, const SeamSum& other, Complex factor) {
       sum.insert(found, SeamTerm{term.parameter, factor * term.factor});
     }
   }
-  sum.erase(std::remove_if(sum.begin(), sum.end(), [](const SeamTerm& t) { return length_of(t.factor) < no_factor; }),
-            sum.end());
+  sum.erase(
+      std::remove_if(sum.begin(), sum.end(), [](const SeamTerm& t) { return field::length_of(t.factor) < no_factor; }),
+      sum.end());
 }
 
 void turn(SeamSum& sum, Complex factor) {
@@ -33,7 +34,7 @@ void turn(SeamSum& sum, Complex factor) {
 
 class Cutter {
  public:
-  Cutter(const FluxSurface& surface, const FaceCross& crosses, Seams& out, Memory& memory)
+  Cutter(const remesh::FluxSurface& surface, const FaceCross& crosses, Seams& out, Memory& memory)
       : s_(surface),
         crosses_(crosses),
         out_(out),
@@ -73,11 +74,11 @@ class Cutter {
   // Turns the crosses so that they agree across the edges of a spanning tree of the triangles.
   void comb() {
     const std::int32_t triangles = s_.real_triangles;
-    Table<std::int8_t> rotation(triangles, 0, memory_);
-    Table<std::uint8_t> seen(triangles, 0, memory_);
+    remesh::Table<std::int8_t> rotation(triangles, 0, memory_);
+    remesh::Table<std::uint8_t> seen(triangles, 0, memory_);
     out_.cut.assign(s_.half_count(), 1);
     out_.transition.assign(s_.half_count(), 0);
-    Table<std::int32_t> queue(memory_);
+    remesh::Table<std::int32_t> queue(memory_);
     Poller poller;
     for (std::int32_t start = 0; start < triangles; ++start) {
       if (seen[start]) continue;
@@ -105,7 +106,7 @@ class Cutter {
       if (!s_.is_real(h) || !s_.is_real(g)) {
         out_.cut[h] = 0;
         if (s_.is_real(h)) {
-          const std::int32_t apex = s_.tail[FluxSurface::previous(g)];
+          const std::int32_t apex = s_.tail[remesh::FluxSurface::previous(g)];
           border_[s_.tail[h]] = apex;
           border_[s_.head(h)] = apex;
         }
@@ -117,7 +118,7 @@ class Cutter {
   }
 
   void prune() {
-    Table<std::int32_t> stack(memory_);
+    remesh::Table<std::int32_t> stack(memory_);
     for (std::int32_t h = 0; h < s_.half_count(); ++h) degree_[s_.tail[h]] += out_.cut[h];
     const auto dead_end = [&](std::int32_t v) { return degree_[v] == 1 && regular(v) && border_[v] == none; };
     for (std::int32_t v = 0; v < s_.first_apex; ++v) {
@@ -178,8 +179,8 @@ class Cutter {
     const std::int32_t begin = s_.out[v];
     for (std::int32_t h = begin;;) {
       if (s_.is_real(h)) {
-        const Complex a = crosses_.edge[h], b = -crosses_.edge[FluxSurface::previous(h)];
-        angle += angle_of(b * std::conj(a));
+        const Complex a = crosses_.edge[h], b = -crosses_.edge[remesh::FluxSurface::previous(h)];
+        angle += field::angle_of(b * std::conj(a));
       }
       h = s_.turn_left(h);
       if (h == begin) break;
@@ -190,24 +191,24 @@ class Cutter {
   // Makes a spanning tree of the seams of every component, chooses the root, the vertex at 0, and the parameters.
   void grow_trees() {
     const std::int32_t n = s_.vertex_count();
-    Table<std::int32_t> start(n + 1, 0, memory_), list(2 * seams_.size(), none, memory_);
+    remesh::Table<std::int32_t> start(n + 1, 0, memory_), list(2 * seams_.size(), none, memory_);
     for (const Seam& seam : seams_) {
       ++start[seam.from + 1];
       ++start[seam.to + 1];
     }
     for (std::int32_t v = 0; v < n; ++v) start[v + 1] += start[v];
-    Table<std::int32_t> cursor = start;
+    remesh::Table<std::int32_t> cursor = start;
     for (std::int32_t i = 0; i < seams_.size(); ++i) {
       list[cursor[seams_[i].from]++] = i;
       list[cursor[seams_[i].to]++] = i;
     }
     // By component: the best root. Borders first, then odd singularities, which never halve whole numbers.
-    Table<std::int32_t> root(s_.component_count, none, memory_), singular(s_.component_count, 0, memory_),
+    remesh::Table<std::int32_t> root(s_.component_count, none, memory_), singular(s_.component_count, 0, memory_),
         any(s_.component_count, none, memory_);
     const auto rank = [&](std::int32_t v) {
       return v == none ? 0 : s_.is_apex(v) ? 4 : crosses_.index[v] % 2 != 0 ? 3 : !regular(v) ? 2 : 1;
     };
-    Table<double> corner(s_.component_count, -1.0, memory_);
+    remesh::Table<double> corner(s_.component_count, -1.0, memory_);
     for (std::int32_t v = 0; v < n; ++v) {
       std::int32_t& best = root[s_.component[v]];
       // Without singularities, the sharpest corner of a border is held: it lies on the grid anyway.
@@ -219,7 +220,7 @@ class Cutter {
       if ((start[v + 1] > start[v] || s_.is_apex(v)) && rank(v) > rank(best)) best = v;
     }
     parent_.assign(n, none);
-    Table<std::uint8_t> seen(n, 0, memory_), tree(seams_.size(), 0, memory_);
+    remesh::Table<std::uint8_t> seen(n, 0, memory_), tree(seams_.size(), 0, memory_);
     for (std::int32_t c = 0; c < s_.component_count; ++c) {
       if (root[c] == none) continue;
       std::int32_t next = order_.size();
@@ -239,7 +240,7 @@ class Cutter {
       }
     }
     out_.parameter.assign(n, Seams::free);
-    Table<std::uint8_t> held(s_.component_count, 0, memory_);
+    remesh::Table<std::uint8_t> held(s_.component_count, 0, memory_);
     for (std::int32_t v = 0; v < s_.first_apex; ++v) {
       const std::int32_t c = s_.component[v];
       if (regular(v)) continue;
@@ -330,7 +331,8 @@ class Cutter {
       }
       if (out_.parameter[v] >= 0) right.push_back({out_.parameter[v], lever});  // z = 0 at the vertex that is held
       add(right, sum, -1);
-      if (length_of(factor) < no_factor) fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "a seam does not count at its own node");
+      if (field::length_of(factor) < no_factor)
+        fail(HF_ERROR_INTERNAL, HF_NO_INDEX, "a seam does not count at its own node");
       turn(right, 1.0 / factor);
       sum_of(seam) = right;
       seams_[seam].known = true;
@@ -348,7 +350,7 @@ class Cutter {
   void place_corners() {
     out_.unit.assign(s_.half_count(), 0);
     out_.offset.assign(s_.half_count(), none);
-    Table<std::int32_t> of_seam(seams_.size(), none, memory_);
+    remesh::Table<std::int32_t> of_seam(seams_.size(), none, memory_);
     const auto push = [&](const SeamSum& sum) {
       out_.offsets.push_back(sum);
       return static_cast<std::int32_t>(out_.offsets.size()) - 1;
@@ -388,25 +390,25 @@ class Cutter {
     }
   }
 
-  const FluxSurface& s_;
+  const remesh::FluxSurface& s_;
   const FaceCross& crosses_;
   Seams& out_;
   Memory& memory_;
-  Table<std::int32_t> degree_, border_, seam_;
-  Table<Seam> seams_;
-  Vector<SeamSum> sums_;         // t by seam
-  Table<std::uint8_t> forward_;  // by half-edge: 1 along its seam
-  Table<std::uint8_t> forced_;   // by vertex: 1 where a closed seam without a node starts
-  Table<std::int32_t> parent_;   // by node key: the seam to its parent in the tree
-  Table<std::int32_t> order_;    // node keys, parents before children
+  remesh::Table<std::int32_t> degree_, border_, seam_;
+  remesh::Table<Seam> seams_;
+  Vector<SeamSum> sums_;                 // t by seam
+  remesh::Table<std::uint8_t> forward_;  // by half-edge: 1 along its seam
+  remesh::Table<std::uint8_t> forced_;   // by vertex: 1 where a closed seam without a node starts
+  remesh::Table<std::int32_t> parent_;   // by node key: the seam to its parent in the tree
+  remesh::Table<std::int32_t> order_;    // node keys, parents before children
 };
 
 }  // namespace
 
-Seams Seams::make(const FluxSurface& surface, const FaceCross& crosses, Memory& memory) {
+Seams Seams::make(const remesh::FluxSurface& surface, const FaceCross& crosses, Memory& memory) {
   Seams out(memory);
   Cutter(surface, crosses, out, memory).run();
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

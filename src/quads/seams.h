@@ -17,7 +17,7 @@
 #pragma once
 #include "quads/face_cross.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 struct SeamTerm {
   std::int32_t parameter;
@@ -36,20 +36,20 @@ struct Seams {
         parameter(memory),
         fixed(&memory) {}
   // Throws HF_ERROR_UNSUPPORTED where no map can exist.
-  static Seams make(const FluxSurface& surface, const FaceCross& crosses, Memory& memory);
+  static Seams make(const remesh::FluxSurface& surface, const FaceCross& crosses, Memory& memory);
 
-  Table<std::complex<double>> direction;  // by real triangle: the combed direction in the frame of the triangle
-  Table<std::uint8_t> cut;                // by half-edge
-  Table<std::int8_t> transition;          // by half-edge: 0 .. 3, and 0 where it is not cut
+  remesh::Table<std::complex<double>> direction;  // by real triangle: the combed direction in the frame of the triangle
+  remesh::Table<std::uint8_t> cut;                // by half-edge
+  remesh::Table<std::int8_t> transition;          // by half-edge: 0 .. 3, and 0 where it is not cut
   // The corner of a triangle at the tail of half-edge h has Z = i^unit z + offsets[offset], with z the map at the
   // vertex. offset is -1 for 0.
-  Table<std::int8_t> unit;
-  Table<std::int32_t> offset;
+  remesh::Table<std::int8_t> unit;
+  remesh::Table<std::int32_t> offset;
   Vector<SeamSum> offsets;
   // By vertex: free (z is an unknown that need not be whole), the number of the parameter that z is, or depends (z is
   // the sum fixed[..].sum).
   static constexpr std::int32_t free = -1, depends = -2;
-  Table<std::int32_t> parameter;
+  remesh::Table<std::int32_t> parameter;
   struct Fixed {
     std::int32_t vertex;
     SeamSum sum;
@@ -73,4 +73,4 @@ inline std::complex<double> quarter_turned(std::complex<double> z, int k) noexce
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

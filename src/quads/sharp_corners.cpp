@@ -6,7 +6,7 @@
 #include "base/elementary.h"
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 constexpr double right_angle = half_turn / 2;
@@ -27,8 +27,8 @@ struct Corner {
 
 class Opener {
  public:
-  Opener(const FluxSurface& surface, const Table<std::uint8_t>& features, double edge_length, SharpCorners& out,
-         Memory& memory)
+  Opener(const remesh::FluxSurface& surface, const remesh::Table<std::uint8_t>& features, double edge_length,
+         SharpCorners& out, Memory& memory)
       : surface_(surface),
         features_(features),
         room_(two_quads * edge_length),
@@ -39,7 +39,7 @@ class Opener {
   void open(const Corner& corner) {
     const double turn = sharp - corner.angle / 2;
     set_inside(corner, -turn, -turn);
-    const auto right = [&](std::int32_t h) { return corner_before(FluxSurface::next(h)); };
+    const auto right = [&](std::int32_t h) { return corner_before(remesh::FluxSurface::next(h)); };
     const auto left = [&](std::int32_t h) { return corner_from(h); };
     // Nothing on the other side of a border asks for more quads along it.
     const bool crease = surface_.is_real(surface_.twin[corner.first]) && surface_.is_real(surface_.twin[corner.last]);
@@ -54,7 +54,7 @@ class Opener {
     Corner out{first, none, 0};
     for (std::int32_t h = first; surface_.is_real(h); h = surface_.turn_left(h)) {
       out.angle += corner_angle(surface_, h);
-      out.last = FluxSurface::previous(h);
+      out.last = remesh::FluxSurface::previous(h);
       if (features_[out.last] || out.angle > most) break;
     }
     return out;
@@ -102,7 +102,7 @@ class Opener {
   // that is not far behind.
   void turn_run(const Run& run, double turn, double narrow, bool tooth) {
     for (std::size_t i = 1; i < run_.size(); ++i)
-      out_.passed[surface_.tail[turn < 0 ? run_[i] : FluxSurface::next(run_[i])]] = 1;
+      out_.passed[surface_.tail[turn < 0 ? run_[i] : remesh::FluxSurface::next(run_[i])]] = 1;
     if (run.end < 0) run_.resize(1);
     const bool all = run.length < narrow + room_;
     if (all && run.end >= 0) ends_.push_back(run.end);
@@ -122,15 +122,15 @@ class Opener {
     double angle = 0;
     for (std::int32_t h = corner.first;; h = surface_.turn_left(h)) {
       const double own = corner_angle(surface_, h), middle = (angle + own / 2) / corner.angle;
-      if (h != corner.first && FluxSurface::previous(h) != corner.last)
+      if (h != corner.first && remesh::FluxSurface::previous(h) != corner.last)
         out_.inside[h / 3] = {h, begin + middle * (end - begin) - angle};
-      if (FluxSurface::previous(h) == corner.last) return;
+      if (remesh::FluxSurface::previous(h) == corner.last) return;
       angle += own;
     }
   }
 
-  const FluxSurface& surface_;
-  const Table<std::uint8_t>& features_;
+  const remesh::FluxSurface& surface_;
+  const remesh::Table<std::uint8_t>& features_;
   const double room_;
   SharpCorners& out_;
   Vector<std::int32_t> run_, ends_;
@@ -138,14 +138,14 @@ class Opener {
 
 }  // namespace
 
-double corner_angle(const FluxSurface& s, std::int32_t h) noexcept {
+double corner_angle(const remesh::FluxSurface& s, std::int32_t h) noexcept {
   const Vec3 p = s.position[s.tail[h]], a = s.position[s.head(h)] - p,
-             b = s.position[s.tail[FluxSurface::previous(h)]] - p;
+             b = s.position[s.tail[remesh::FluxSurface::previous(h)]] - p;
   return arc_tangent(norm(cross(a, b)), dot(a, b));
 }
 
-SharpCorners SharpCorners::find(const FluxSurface& surface, const Table<std::uint8_t>& features, double edge_length,
-                                Memory& memory) {
+SharpCorners SharpCorners::find(const remesh::FluxSurface& surface, const remesh::Table<std::uint8_t>& features,
+                                double edge_length, Memory& memory) {
   SharpCorners out(memory);
   Vector<Corner> corners(&memory);
   Opener opener(surface, features, edge_length, out, memory);
@@ -165,4 +165,4 @@ SharpCorners SharpCorners::find(const FluxSurface& surface, const Table<std::uin
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

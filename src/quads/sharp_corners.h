@@ -14,28 +14,28 @@
 
 #include "remesh/flux_surface.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 struct SharpCorners {
   explicit SharpCorners(Memory& memory) : turn(memory), tooth(memory), inside(memory), passed(memory) {}
   // features: by half-edge. edge_length: of the quads.
-  static SharpCorners find(const FluxSurface& surface, const Table<std::uint8_t>& features, double edge_length,
-                           Memory& memory);
+  static SharpCorners find(const remesh::FluxSurface& surface, const remesh::Table<std::uint8_t>& features,
+                           double edge_length, Memory& memory);
   bool empty() const noexcept { return count == 0; }
 
   std::int32_t count = 0;
-  Table<double> turn;         // by half-edge: how far the crosses on its left are turned from it, counter-clockwise
-  Table<std::uint8_t> tooth;  // by half-edge: it is turned by the corner of a tooth
+  remesh::Table<double> turn;  // by half-edge: how far the crosses on its left are turned from it, counter-clockwise
+  remesh::Table<std::uint8_t> tooth;  // by half-edge: it is turned by the corner of a tooth
   // By triangle: the same, of its half-edge that leaves the corner; only in corners and where that is no feature.
   struct Inside {
     std::int32_t half = -1;
     double turn = 0;
   };
-  Table<Inside> inside;
-  Table<std::uint8_t> passed;  // by vertex: turned feature edges run through it
+  remesh::Table<Inside> inside;
+  remesh::Table<std::uint8_t> passed;  // by vertex: turned feature edges run through it
 };
 
 // The angle of a triangle at the tail of h.
-double corner_angle(const FluxSurface& surface, std::int32_t h) noexcept;
+double corner_angle(const remesh::FluxSurface& surface, std::int32_t h) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

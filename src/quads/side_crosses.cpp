@@ -7,7 +7,7 @@
 #include "base/elementary.h"
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // Crosses shorter than this cancel out. In a round patch of radius 1 they do so within 0.56.
@@ -16,26 +16,27 @@ constexpr double cancelled = 0.1;
 constexpr double no_wish = 1e-3;
 
 // The cross along a half-edge in its triangle, turned by `turn`, in the frame of a vertex at one of its ends.
-Complex cross_along(const FluxSurface& s, const Connection& connection, std::int32_t h, double turn, Index vertex) {
+Complex cross_along(const remesh::FluxSurface& s, const field::Connection& connection, std::int32_t h, double turn,
+                    Index vertex) {
   const Vec3 a = s.position[s.tail[h]], along = unit_vector(s.position[s.head(h)] - a),
-             normal = unit_vector(cross(along, s.position[s.tail[FluxSurface::previous(h)]] - a));
+             normal = unit_vector(cross(along, s.position[s.tail[remesh::FluxSurface::previous(h)]] - a));
   const Vec3 direction = cosine(turn) * along + sine(turn) * cross(normal, along);
   // A triangle may be turned over against the mesh.
   const Vec3 own = connection.normal[at(vertex)], facing = dot(own, normal) < 0 ? -1.0 * normal : normal;
-  Complex z = unit_of(connection.to_frame(vertex, carry(direction, facing, own)), 0);
+  Complex z = unit_of(connection.to_frame(vertex, field::carry(direction, facing, own)), 0);
   z *= z;
   return z * z;
 }
 
 }  // namespace
 
-SideCrosses SideCrosses::find(const FluxSurface& surface, const Connection& connection,
-                              const Table<std::uint8_t>& features, const SharpCorners& corners, Vector<HardCross>& hard,
-                              Memory& memory) {
+SideCrosses SideCrosses::find(const remesh::FluxSurface& surface, const field::Connection& connection,
+                              const remesh::Table<std::uint8_t>& features, const SharpCorners& corners,
+                              Vector<HardCross>& hard, Memory& memory) {
   SideCrosses out(memory);
   if (corners.empty()) return out;
   const std::int32_t halves = 3 * surface.real_triangles;
-  Table<std::uint8_t> has_sides(surface.vertex_count(), 0, memory);
+  remesh::Table<std::uint8_t> has_sides(surface.vertex_count(), 0, memory);
   for (std::int32_t h = 0; h < halves; ++h) {
     if (!corners.tooth[h]) continue;
     has_sides[surface.tail[h]] = has_sides[surface.head(h)] = 1;
@@ -45,18 +46,18 @@ SideCrosses SideCrosses::find(const FluxSurface& surface, const Connection& conn
     const std::int32_t v = surface.tail[first];
     if (!features[first] || !has_sides[v]) continue;
     std::int32_t last = first;
-    while (!features[FluxSurface::previous(last)]) last = surface.turn_left(last);
-    last = FluxSurface::previous(last);
+    while (!features[remesh::FluxSurface::previous(last)]) last = surface.turn_left(last);
+    last = remesh::FluxSurface::previous(last);
     const Index vertex = surface.mesh_vertex[v];
     const Complex cross = unit_of(cross_along(surface, connection, first, corners.turn[first], vertex) +
                                       cross_along(surface, connection, last, corners.turn[last], vertex),
                                   0);
     for (std::int32_t h = first;; h = surface.turn_left(h)) {
       out.of_corner[h] = cross;
-      if (FluxSurface::previous(h) == last) break;
+      if (remesh::FluxSurface::previous(h) == last) break;
     }
   }
-  Table<Complex> held(static_cast<std::int32_t>(connection.normal.size()), Complex(0, 0), memory);
+  remesh::Table<Complex> held(static_cast<std::int32_t>(connection.normal.size()), Complex(0, 0), memory);
   for (const HardCross& h : hard) held[h.vertex] = h.cross;
   for (std::int32_t h = 0; h < halves; ++h) {
     if (out.of_corner[h] == 0.0) continue;
@@ -72,7 +73,7 @@ SideCrosses SideCrosses::find(const FluxSurface& surface, const Connection& conn
   return out;
 }
 
-void leave_out_near(const Mesh& mesh, const Topology& topology, Span<const Index> vertices, double far,
+void leave_out_near(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const Index> vertices, double far,
                     Vector<Complex>& wish) {
   struct Reached {
     double distance;
@@ -101,17 +102,17 @@ void leave_out_near(const Mesh& mesh, const Topology& topology, Span<const Index
   }
 }
 
-bool part_turns(const FluxSurface& surface, const Topology& topology, const Connection& connection,
-                Span<const Complex> wish, Span<const Complex> crosses, const Table<std::int32_t>& index,
+bool part_turns(const remesh::FluxSurface& surface, const mesh::Topology& topology, const field::Connection& connection,
+                Span<const Complex> wish, Span<const Complex> crosses, const remesh::Table<std::int32_t>& index,
                 Vector<HardCross>& hard, Memory& memory) {
   constexpr std::int32_t most_turns = 2;
   const std::size_t before = hard.size();
   Vector<Index> patch(&memory);
-  Table<std::uint8_t> reached(static_cast<std::int32_t>(wish.size()), 0, memory);
-  Table<std::int32_t> turns_of(reached.size(), 0, memory);
+  remesh::Table<std::uint8_t> reached(static_cast<std::int32_t>(wish.size()), 0, memory);
+  remesh::Table<std::int32_t> turns_of(reached.size(), 0, memory);
   for (std::int32_t v = 0; v < surface.first_apex; ++v) turns_of[surface.mesh_vertex[v]] += index[v];
   const auto reach = [&](Index v) {
-    if (reached[v] || length_of(wish[at(v)]) >= no_wish || length_of(crosses[at(v)]) >= cancelled) return;
+    if (reached[v] || field::length_of(wish[at(v)]) >= no_wish || field::length_of(crosses[at(v)]) >= cancelled) return;
     reached[v] = 1;
     patch.push_back(v);
   };
@@ -128,7 +129,7 @@ bool part_turns(const FluxSurface& surface, const Topology& topology, const Conn
     if (std::abs(turns) <= most_turns) continue;
     const Vec3 direction = connection.to_space(v, 1), normal = connection.normal[at(v)];
     for (const Index w : patch) {
-      Complex z = unit_of(connection.to_frame(w, carry(direction, normal, connection.normal[at(w)])), 1);
+      Complex z = unit_of(connection.to_frame(w, field::carry(direction, normal, connection.normal[at(w)])), 1);
       z *= z;
       hard.push_back({w, z * z});
     }
@@ -136,4 +137,4 @@ bool part_turns(const FluxSurface& surface, const Topology& topology, const Conn
   return hard.size() > before;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

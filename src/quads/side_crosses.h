@@ -6,32 +6,33 @@
 #include "quads/cross_field.h"
 #include "quads/sharp_corners.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 struct SideCrosses {
   explicit SideCrosses(Memory& memory) : of_corner(memory), turned(&memory), seen(&memory) {}
   // features: by half-edge. hard: of feature_crosses, by ascending vertex; receives a cross for vertices that have
   // sides and no cross yet.
-  static SideCrosses find(const FluxSurface& surface, const Connection& connection, const Table<std::uint8_t>& features,
-                          const SharpCorners& corners, Vector<HardCross>& hard, Memory& memory);
+  static SideCrosses find(const remesh::FluxSurface& surface, const field::Connection& connection,
+                          const remesh::Table<std::uint8_t>& features, const SharpCorners& corners,
+                          Vector<HardCross>& hard, Memory& memory);
 
   // By half-edge: the cross of its side at its tail, in the frame of the vertex; 0 where the vertex has one cross.
   // Empty if no corner is sharp.
-  Table<std::complex<double>> of_corner;
+  remesh::Table<std::complex<double>> of_corner;
   Vector<std::int32_t> turned;  // vertices of the mesh that have sides
   Vector<SeenCross> seen;       // by neighbour of these vertices
 };
 
 // Sets the wish to 0 within `far` of these vertices, along edges. The wish there is the curvature of the crease, evened
 // out. It would turn crosses back along the crease.
-void leave_out_near(const Mesh& mesh, const Topology& topology, Span<const std::int32_t> vertices, double far,
-                    Vector<std::complex<double>>& wish);
+void leave_out_near(const mesh::Mesh& mesh, const mesh::Topology& topology, Span<const std::int32_t> vertices,
+                    double far, Vector<std::complex<double>>& wish);
 // Parts the four quarter turns of a round patch. Without a wish, the crosses of the patch cancel out in its middle, and
 // the turns gather there: at one vertex, which would get no quad, or within an edge. So where crosses cancel out around
 // more than two turns, all hold one direction. Adds these crosses to `hard`; returns whether there are any. wish,
 // crosses: by vertex of the mesh. index: of FaceCross.
-bool part_turns(const FluxSurface& surface, const Topology& topology, const Connection& connection,
+bool part_turns(const remesh::FluxSurface& surface, const mesh::Topology& topology, const field::Connection& connection,
                 Span<const std::complex<double>> wish, Span<const std::complex<double>> crosses,
-                const Table<std::int32_t>& index, Vector<HardCross>& hard, Memory& memory);
+                const remesh::Table<std::int32_t>& index, Vector<HardCross>& hard, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -7,7 +7,7 @@
 #include "quads/numbers.h"
 #include "quads/other_core.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // A vertex nearer to the plane than this share of its shortest edge is moved onto it. More moves more of the surface,
@@ -31,19 +31,19 @@ constexpr Index small_piece = 24;
 // Reported progress: the ends of the parts of the whole, not measured.
 constexpr float compared = 0.02f, cut = 0.1f, made = 0.98f;
 
-void check_symmetry(const Core& core, const NearestTriangle& nearest, const MirrorPlane& plane) {
+void check_symmetry(const surface::Core& core, const mesh::NearestTriangle& nearest, const mesh::MirrorPlane& plane) {
   Poller poller(64);
-  Index worst = Mesh::none;
+  Index worst = mesh::Mesh::none;
   double distance = most_off * most_off;
   for (Index v = 0; v < core.size(); ++v) {
     poller.due();
-    const double squared = nearest.find(plane.reflect(core.mesh.positions[at(v)]), Mesh::none, distance).squared;
+    const double squared = nearest.find(plane.reflect(core.mesh.positions[at(v)]), mesh::Mesh::none, distance).squared;
     if (squared > distance) {
       distance = squared;
       worst = v;
     }
   }
-  if (worst == Mesh::none) return;
+  if (worst == mesh::Mesh::none) return;
   const std::uint32_t given = static_cast<std::uint32_t>(core.mesh.given_of_inner[at(worst)]);
   fail(HF_ERROR_UNSUPPORTED, given,
        "the surface is not symmetric in symmetry_plane: the mirror image of vertex %u is %g away from it; %g is "
@@ -53,24 +53,24 @@ void check_symmetry(const Core& core, const NearestTriangle& nearest, const Mirr
 
 // Adds the mirror image, and finds all vertices on the surface. Two quads that share two edges, around a vertex on the
 // plane, become one.
-void add_image(const NearestTriangle& nearest, const MirrorPlane& plane, const Table<std::uint8_t>& on_plane,
-               QuadMesh& mesh, Memory& memory) {
+void add_image(const mesh::NearestTriangle& nearest, const mesh::MirrorPlane& plane,
+               const remesh::Table<std::uint8_t>& on_plane, remesh::QuadMesh& mesh, Memory& memory) {
   const Index vertices = mesh.position.size(), faces = mesh.face_count();
-  Table<std::int32_t> valence(vertices, 0, memory);
+  remesh::Table<std::int32_t> valence(vertices, 0, memory);
   for (const std::int32_t v : mesh.corner) ++valence[v];
-  QuadMesh out(memory);
-  Table<Index> number(vertices, none, memory), image(vertices, none, memory);
-  Table<std::uint8_t> inside(vertices, 0, memory);  // by vertex: of two quads that become one
+  remesh::QuadMesh out(memory);
+  remesh::Table<Index> number(vertices, none, memory), image(vertices, none, memory);
+  remesh::Table<std::uint8_t> inside(vertices, 0, memory);  // by vertex: of two quads that become one
   for (Index i = 0; i < mesh.corner.size(); ++i) {
     const Index v = mesh.corner[i], before = mesh.corner[i % 4 == 0 ? i + 3 : i - 1],
                 next = mesh.corner[i % 4 == 3 ? i - 3 : i + 1];
     inside[v] = valence[v] == 1 && on_plane[before] && on_plane[v] && on_plane[next];
   }
-  Index hint = Mesh::none;
+  Index hint = mesh::Mesh::none;
   Poller poller(64);
   const auto add_vertex = [&](Index v, Vec3 p) {
     poller.due();
-    SurfacePoint point;
+    remesh::SurfacePoint point;
     point.triangle = hint = nearest.find(p, hint).triangle;
     nearest.weights(p, point.triangle, point.weight);
     return out.add_vertex(point, p, mesh.pinned[v], mesh.border[v] && !on_plane[v], mesh.scale[v]);
@@ -105,10 +105,10 @@ void add_image(const NearestTriangle& nearest, const MirrorPlane& plane, const T
 
 }  // namespace
 
-HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
+HalfSurface HalfSurface::make(const surface::Core& core, const mesh::MirrorPlane& plane) {
   Memory& memory = *core.memory;
-  const Mesh& mesh = core.mesh;
-  const Topology& topology = core.topology();
+  const mesh::Mesh& mesh = core.mesh;
+  const mesh::Topology& topology = core.topology();
   HalfSurface out(memory);
   Vector<double> height(&memory), shortest(at(core.size()), HUGE_VAL, &memory);
   for (const Vec3& p : mesh.positions) height.push_back(plane.side(p));
@@ -118,8 +118,8 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
     shortest[a] = std::min(shortest[a], length);
     shortest[b] = std::min(shortest[b], length);
   }
-  out.of_vertex.assign(at(core.size()), Mesh::none);
-  out.of_edge.assign(at(topology.edge_count()), Mesh::none);
+  out.of_vertex.assign(at(core.size()), mesh::Mesh::none);
+  out.of_edge.assign(at(topology.edge_count()), mesh::Mesh::none);
   for (std::size_t v = 0; v < height.size(); ++v) {
     if (std::fabs(height[v]) < snapped_share * shortest[v]) height[v] = 0;
   }
@@ -139,13 +139,14 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
       const double a = height[at(v)], b = height[at(w)];
       if (a >= 0) {
         Index& half = out.of_vertex[at(v)];
-        if (half == Mesh::none) half = add(mesh.positions[at(v)], a == 0);
+        if (half == mesh::Mesh::none) half = add(mesh.positions[at(v)], a == 0);
         corner[count++] = half;
       }
       if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
         const double share = a / (a - b);
         Index& half = out.of_edge[at(topology.edge_between(v, w))];
-        if (half == Mesh::none) half = add((1 - share) * mesh.positions[at(v)] + share * mesh.positions[at(w)], true);
+        if (half == mesh::Mesh::none)
+          half = add((1 - share) * mesh.positions[at(v)] + share * mesh.positions[at(w)], true);
         corner[count++] = half;
       }
     }
@@ -174,7 +175,7 @@ namespace {
 
 // The sides of quads with both ends on the plane.
 struct PlaneSides {
-  PlaneSides(const QuadMesh& mesh, const Table<std::uint8_t>& on_plane, Memory& memory)
+  PlaneSides(const remesh::QuadMesh& mesh, const remesh::Table<std::uint8_t>& on_plane, Memory& memory)
       : at_border(memory), inner(memory) {
     const auto key = [&](Index i) {
       const Index a = mesh.corner[i], b = mesh.corner[i % 4 == 3 ? i - 3 : i + 1];
@@ -190,12 +191,12 @@ struct PlaneSides {
       if (own) (found + 1 != keys.end() && found[1] == own ? inner : at_border).push_back(i);
     }
   }
-  Table<Index> at_border, inner;  // the corners where they begin
+  remesh::Table<Index> at_border, inner;  // the corners where they begin
 };
 
 // By quad: a number that quads of one piece share.
-Table<Index> pieces_of(const QuadMesh& mesh, Memory& memory) {
-  Table<Index> parent(mesh.position.size(), none, memory), out(memory);
+remesh::Table<Index> pieces_of(const remesh::QuadMesh& mesh, Memory& memory) {
+  remesh::Table<Index> parent(mesh.position.size(), none, memory), out(memory);
   for (Index v = 0; v < parent.size(); ++v) parent[v] = v;
   const auto root = [&](Index v) {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
@@ -207,10 +208,10 @@ Table<Index> pieces_of(const QuadMesh& mesh, Memory& memory) {
 }
 
 // Moves the quads of the marked pieces off the plane, and puts a row of quads between.
-void add_rows(QuadMesh& mesh, const Table<Index>& sides, Table<std::uint8_t>& on_plane, const Table<Index>& piece,
-              const Table<std::uint8_t>& marked, const MirrorPlane& plane, const PlaceOnSurface& place,
-              Memory& memory) {
-  Table<Index> copy(mesh.position.size(), none, memory);
+void add_rows(remesh::QuadMesh& mesh, const remesh::Table<Index>& sides, remesh::Table<std::uint8_t>& on_plane,
+              const remesh::Table<Index>& piece, const remesh::Table<std::uint8_t>& marked,
+              const mesh::MirrorPlane& plane, const PlaceOnSurface& place, Memory& memory) {
+  remesh::Table<Index> copy(mesh.position.size(), none, memory);
   const Index old = mesh.corner.size();
   for (const Index i : sides) {
     if (!marked[piece[i / 4]]) continue;
@@ -222,7 +223,7 @@ void add_rows(QuadMesh& mesh, const Table<Index>& sides, Table<std::uint8_t>& on
       if (copy[v] != none) continue;
       const Vec3 way = middle - mesh.position[v];
       const Vec3 p = place(mesh.position[v] + row_share * way + norm(way) * plane.normal);
-      copy[v] = mesh.add_vertex(mesh.location[v], p, QuadMesh::free, false, mesh.scale[v]);
+      copy[v] = mesh.add_vertex(mesh.location[v], p, remesh::QuadMesh::free, false, mesh.scale[v]);
       on_plane.push_back(0);
     }
     for (const Index v : {ends[0], ends[1], copy[ends[1]], copy[ends[0]]}) mesh.corner.push_back(v);
@@ -235,17 +236,17 @@ void add_rows(QuadMesh& mesh, const Table<Index>& sides, Table<std::uint8_t>& on
 
 }  // namespace
 
-void prepare_at_plane(QuadMesh& mesh, Table<std::uint8_t>& on_plane, const MirrorPlane& plane,
+void prepare_at_plane(remesh::QuadMesh& mesh, remesh::Table<std::uint8_t>& on_plane, const mesh::MirrorPlane& plane,
                       const PlaceOnSurface& place, std::int32_t& sides_on_plane, Memory& memory) {
-  Table<Index> piece = pieces_of(mesh, memory);
+  remesh::Table<Index> piece = pieces_of(mesh, memory);
   // By piece: its quads, and whether it gets a row.
-  Table<Index> size(mesh.position.size(), 0, memory);
-  Table<std::uint8_t> marked(mesh.position.size(), 0, memory);
+  remesh::Table<Index> size(mesh.position.size(), 0, memory);
+  remesh::Table<std::uint8_t> marked(mesh.position.size(), 0, memory);
   for (const Index number : piece) ++size[number];
   while (true) {
     const PlaneSides sides(mesh, on_plane, memory);
     for (const Index i : sides.inner) marked[piece[i / 4]] |= size[piece[i / 4]] < small_piece;
-    Table<std::uint8_t> count(mesh.face_count(), 0, memory);
+    remesh::Table<std::uint8_t> count(mesh.face_count(), 0, memory);
     for (const Index i : sides.at_border) ++count[i / 4];
     Index kept = 0;
     for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -265,7 +266,7 @@ void prepare_at_plane(QuadMesh& mesh, Table<std::uint8_t>& on_plane, const Mirro
   }
 }
 
-HalfBase::HalfBase(const Core& whole, const MirrorPlane& given)
+HalfBase::HalfBase(const surface::Core& whole, const mesh::MirrorPlane& given)
     : plane(given), nearest(whole.mesh.positions, whole.mesh.corners, *whole.memory), half(*whole.memory) {
   {
     const ProgressRange part(0.0f, compared);
@@ -281,15 +282,15 @@ HalfBase::HalfBase(const Core& whole, const MirrorPlane& given)
 }
 
 QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report, QuadKeeper* kept) {
-  const Core& whole = *options.core;
+  const surface::Core& whole = *options.core;
   Memory& memory = *whole.memory;
-  const MirrorPlane& plane = *options.plane;
+  const mesh::MirrorPlane& plane = *options.plane;
   const double area = area_of(whole);
   const double length = options.faces > 0 ? std::sqrt(area / options.faces) : options.edge_length;
   check_expected(options, area);
   // One that fails stays unmade.
   std::shared_ptr<HalfBase> base = kept ? kept->half : nullptr;
-  const auto same = [&](const MirrorPlane& other) {
+  const auto same = [&](const mesh::MirrorPlane& other) {
     return norm(other.normal - plane.normal) == 0 && other.offset == plane.offset;
   };
   if (!base || !same(base->plane)) {
@@ -297,20 +298,21 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
     base = make_owner_in<HalfBase>(whole.memory, whole, plane);
     if (kept) kept->half = base;
   }
-  const NearestTriangle& nearest = base->nearest;
+  const mesh::NearestTriangle& nearest = base->nearest;
   const HalfSurface& half = base->half;
-  const Mesh& mesh = base->core->mesh;
+  const mesh::Mesh& mesh = base->core->mesh;
   OtherOptions own(options, base->core, length);
   for (const QuadGuide& guide : options.guides) {
     const Index v = half.of_vertex[at(guide.vertex)];
-    if (v != Mesh::none) own.add_guide(guide, v);
+    if (v != mesh::Mesh::none) own.add_guide(guide, v);
   }
   for (const Index e : options.crease_edges) {
     Index ends[2] = {half.of_vertex[at(whole.topology().first(e))], half.of_vertex[at(whole.topology().second(e))]};
     for (Index& end : ends) {
-      if (end == Mesh::none) end = half.of_edge[at(e)];
+      if (end == mesh::Mesh::none) end = half.of_edge[at(e)];
     }
-    if (ends[0] != Mesh::none && ends[1] != Mesh::none && ends[0] != ends[1]) own.add_crease(ends[0], ends[1]);
+    if (ends[0] != mesh::Mesh::none && ends[1] != mesh::Mesh::none && ends[0] != ends[1])
+      own.add_crease(ends[0], ends[1]);
   }
   for (const QuadPole& pole : options.poles) {
     if (plane.side(pole.place) >= 0) own.add_pole(pole);
@@ -322,7 +324,7 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
     const ProgressRange part(cut, made);
     return make_field_quads(half_options, &found, kept ? &base->kept : nullptr);
   }();
-  Table<std::uint8_t> on_plane(memory);
+  remesh::Table<std::uint8_t> on_plane(memory);
   for (Index v = 0; v < result.mesh.position.size(); ++v) {
     Vec3& p = result.mesh.position[v];
     p = mesh.to_given(p);
@@ -331,7 +333,7 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   std::int32_t sides = 0;
   prepare_at_plane(result.mesh, on_plane, plane, PlaceOnSurface{whole, nearest}, sides, memory);
   // Vertices on the plane count once. Preparing keeps the Euler characteristic of the half.
-  Table<std::uint8_t> shared(on_plane.size(), 0, memory);
+  remesh::Table<std::uint8_t> shared(on_plane.size(), 0, memory);
   std::int32_t corners = 0;
   for (const Index v : result.mesh.corner) {
     corners += on_plane[v] && !shared[v];
@@ -339,11 +341,11 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   }
   result.euler_characteristic = 2 * result.euler_characteristic - corners + sides;
   add_image(nearest, plane, on_plane, result.mesh, memory);
-  check_quads(result.mesh, result.euler_characteristic, memory);
+  remesh::check_quads(result.mesh, result.euler_characteristic, memory);
   found.edge_length *= mesh.scale;
   if (report) *report = found;
   hf_inner::report(1.0f);
   return result;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

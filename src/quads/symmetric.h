@@ -6,12 +6,12 @@
 #include "mesh/nearest_triangle.h"
 #include "quads/field_quads.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // The part of a surface on the side that a plane's normal points to.
 struct HalfSurface {
   explicit HalfSurface(Memory& memory) : position(&memory), corner(&memory), of_vertex(&memory), of_edge(&memory) {}
-  static HalfSurface make(const Core& core, const MirrorPlane& plane);
+  static HalfSurface make(const surface::Core& core, const mesh::MirrorPlane& plane);
   Vector<Vec3> position;    // inner units of the whole
   Vector<Index> corner;     // three vertices for each triangle
   Vector<Index> of_vertex;  // by vertex of the whole, the vertex of the half, or none
@@ -21,11 +21,11 @@ struct HalfSurface {
 // The data that symmetric quads of one surface and plane share.
 struct HalfBase {
   // Throws as make_symmetric_quads for the surface.
-  HalfBase(const Core& whole, const MirrorPlane& plane);
-  MirrorPlane plane;
-  NearestTriangle nearest;  // of the whole
+  HalfBase(const surface::Core& whole, const mesh::MirrorPlane& plane);
+  mesh::MirrorPlane plane;
+  mesh::NearestTriangle nearest;  // of the whole
   HalfSurface half;
-  std::shared_ptr<const Core> core;  // of the half
+  std::shared_ptr<const surface::Core> core;  // of the half
   QuadKeeper kept;
 };
 
@@ -38,11 +38,11 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
 // left, a piece gets a row of quads along the plane. The function place finds a point of the surface near another
 // point. sides_on_plane: receives how many sides of quads lie on the plane.
 struct PlaceOnSurface {
-  const Core& core;
-  const NearestTriangle& nearest;
+  const surface::Core& core;
+  const mesh::NearestTriangle& nearest;
   Vec3 operator()(Vec3 p) const noexcept;
 };
-void prepare_at_plane(QuadMesh& mesh, Table<std::uint8_t>& on_plane, const MirrorPlane& plane,
+void prepare_at_plane(remesh::QuadMesh& mesh, remesh::Table<std::uint8_t>& on_plane, const mesh::MirrorPlane& plane,
                       const PlaceOnSurface& place, std::int32_t& sides_on_plane, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

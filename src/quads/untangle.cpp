@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "quads/numbers.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 namespace {
 
 // The figures are sums over 14 meshes at 5,000 quads: triangles that are turned over and have no two corners at one
@@ -43,8 +43,9 @@ struct Bend {
 
 class Untangler {
  public:
-  Untangler(const FluxSurface& surface, const FaceCross& crosses, const Seams& seams, double edge_length,
-            Span<const Complex> offset, const Table<std::uint8_t>& whole, Table<Complex>& z, Memory& memory)
+  Untangler(const remesh::FluxSurface& surface, const FaceCross& crosses, const Seams& seams, double edge_length,
+            Span<const Complex> offset, const remesh::Table<std::uint8_t>& whole, remesh::Table<Complex>& z,
+            Memory& memory)
       : surface_(surface),
         crosses_(crosses),
         seams_(seams),
@@ -106,7 +107,7 @@ class Untangler {
   // The vertices near triangles that are nearly turned over; least: the least determinant. Returns whether any triangle
   // is turned over.
   bool gather(Vector<std::int32_t>& near, double& least) const {
-    Table<std::uint8_t> marked(surface_.vertex_count(), 0, memory_), next(memory_);
+    remesh::Table<std::uint8_t> marked(surface_.vertex_count(), 0, memory_), next(memory_);
     bool any = false;
     for (std::int32_t t = 0; t < surface_.real_triangles; ++t) {
       const Shape shape = shape_of(t);
@@ -199,21 +200,22 @@ class Untangler {
     return false;
   }
 
-  const FluxSurface& surface_;
+  const remesh::FluxSurface& surface_;
   const FaceCross& crosses_;
   const Seams& seams_;
   double edge_length_;
   Span<const Complex> offset_;
-  const Table<std::uint8_t>& whole_;
-  Table<Complex>& z_;
+  const remesh::Table<std::uint8_t>& whole_;
+  remesh::Table<Complex>& z_;
   Memory& memory_;
 };
 
 }  // namespace
 
-void untangle(const FluxSurface& surface, const FaceCross& crosses, const Seams& seams, double edge_length,
-              Span<const Complex> offset, const Table<std::uint8_t>& whole, Table<Complex>& z, Memory& memory) {
+void untangle(const remesh::FluxSurface& surface, const FaceCross& crosses, const Seams& seams, double edge_length,
+              Span<const Complex> offset, const remesh::Table<std::uint8_t>& whole, remesh::Table<Complex>& z,
+              Memory& memory) {
   Untangler(surface, crosses, seams, edge_length, offset, whole, z, memory).run();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -13,11 +13,11 @@
 #pragma once
 #include "quads/seams.h"
 
-namespace hf_inner {
+namespace hf_inner::quads {
 
 // whole: by vertex and part, coordinates that stay. z: by vertex, the map, which is changed. offset: of the seams.
-void untangle(const FluxSurface& surface, const FaceCross& crosses, const Seams& seams, double edge_length,
-              Span<const std::complex<double>> offset, const Table<std::uint8_t>& whole, Table<std::complex<double>>& z,
-              Memory& memory);
+void untangle(const remesh::FluxSurface& surface, const FaceCross& crosses, const Seams& seams, double edge_length,
+              Span<const std::complex<double>> offset, const remesh::Table<std::uint8_t>& whole,
+              remesh::Table<std::complex<double>>& z, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::quads

@@ -5,7 +5,7 @@
 #include "remesh/constants.h"
 #include "remesh/relax.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -169,4 +169,4 @@ void collapse_to_count(const FluxSurface& surface, QuadMesh& mesh, std::int32_t 
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -8,7 +8,7 @@
 #pragma once
 #include "remesh/quad_distance.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 // Tells whether quad f may collapse along the diagonal of its corners k and k + 2.
 bool can_collapse(const QuadMesh& mesh, const VertexFans& fans, std::int32_t f, std::int32_t k);
@@ -24,4 +24,4 @@ std::int32_t collapse_misses(const FluxSurface& surface, QuadMesh& mesh, const V
 void collapse_to_count(const FluxSurface& surface, QuadMesh& mesh, std::int32_t wanted, double edge_length,
                        Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 // --- intake.cpp ---
 
@@ -148,4 +148,4 @@ constexpr std::int32_t collapse_most_faces = 8;
 // changes none of 21 runs. Double changes 7: some get better and some worse, in about the same time.
 constexpr std::int32_t count_share = 12;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

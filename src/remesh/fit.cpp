@@ -11,7 +11,7 @@
 #include "remesh/relax.h"
 #include "remesh/unfold.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -301,4 +301,4 @@ double fit_quads(const FluxSurface& surface, const QuadDistance& distance, QuadM
   return Fitter(surface, distance, mesh, options, memory).run();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -20,7 +20,7 @@
 #pragma once
 #include "remesh/quad_distance.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 struct FitOptions {
   double edge_length = 0, tolerance = 0;  // in inner units
@@ -30,4 +30,4 @@ struct FitOptions {
 double fit_quads(const FluxSurface& surface, const QuadDistance& distance, QuadMesh& mesh, const FitOptions& options,
                  Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

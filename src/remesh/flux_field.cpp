@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "remesh/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -193,4 +193,4 @@ FluxPoint FluxField::down(FluxPoint p) const {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -18,7 +18,7 @@
 #include "base/span.h"
 #include "remesh/flux_surface.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 // A place on a flux line: the half-edge that points uphill, and the offset of the line within its flux.
 struct FluxPoint {
@@ -65,4 +65,4 @@ class FluxField {
   Table<double> saddle_scale_;       // by saddle: outflow over inflow
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

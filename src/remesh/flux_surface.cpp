@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -19,7 +19,7 @@ constexpr std::int32_t most_parted = 64;
 // quads of. Four of 76 shared models have such edges, 0.8 % of them at most; 160,000 triangles at random have 10 %.
 constexpr double most_parted_share = 0.05;
 
-std::uint32_t given(const Mesh& mesh, std::int32_t v) {
+std::uint32_t given(const mesh::Mesh& mesh, std::int32_t v) {
   return static_cast<std::uint32_t>(mesh.given_of_inner[static_cast<std::size_t>(v)]);
 }
 
@@ -27,7 +27,7 @@ std::uint32_t given(const Mesh& mesh, std::int32_t v) {
 // triangles and more at an edge are parted: those that agree in orientation and lie flattest are joined first, one that
 // is left over gets a border.
 struct Pairs {
-  Pairs(const Mesh& mesh, Memory& memory) : twin(3 * mesh.triangle_count(), none, memory) {
+  Pairs(const mesh::Mesh& mesh, Memory& memory) : twin(3 * mesh.triangle_count(), none, memory) {
     struct Side {
       std::int32_t a, b, half;
     };
@@ -69,7 +69,7 @@ struct Pairs {
     twin[h] = g;
   }
 
-  void part(const Mesh& mesh, const Table<std::int32_t>& halves, Memory& memory) {
+  void part(const mesh::Mesh& mesh, const Table<std::int32_t>& halves, Memory& memory) {
     // The direction in which each triangle leaves the edge, and which way it runs along it.
     const auto vertex = [&](std::int32_t h) { return mesh.corners[static_cast<std::size_t>(h)]; };
     const auto place = [&](std::int32_t v) { return mesh.positions[static_cast<std::size_t>(v)]; };
@@ -104,7 +104,7 @@ struct Pairs {
 // Finds which triangles must be turned over, so that all triangles of a component agree with its first one. Where they
 // cannot, as once around a Moebius band, the edge is parted: it gets a border on both sides. Neighbours that agree as
 // they are go first, so an edge is parted where two disagree.
-Table<std::uint8_t> orient(const Mesh& mesh, Pairs& pairs, Memory& memory) {
+Table<std::uint8_t> orient(const mesh::Mesh& mesh, Pairs& pairs, Memory& memory) {
   constexpr std::uint8_t unseen = 2;  // a third value, beside the answers 0 and 1
   Table<std::uint8_t> turned(mesh.triangle_count(), unseen, memory);
   Table<std::int32_t> agreeing(memory), others(memory);  // half-edges to cross
@@ -146,7 +146,7 @@ Table<std::uint8_t> orient(const Mesh& mesh, Pairs& pairs, Memory& memory) {
 
 }  // namespace
 
-FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, Memory& memory) {
+FluxSurface FluxSurface::make(const mesh::Mesh& mesh, const mesh::Topology& topology, Memory& memory) {
   FluxSurface s(memory);
   Pairs pairs(mesh, memory);
   const Table<std::uint8_t> turned = orient(mesh, pairs, memory);
@@ -190,7 +190,7 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, Memory
 
   poll();
   // Computes the edge weights.
-  const Vector<double> weights = edge_weights(mesh, topology, OperatorKind::clamped, memory);
+  const Vector<double> weights = mesh::edge_weights(mesh, topology, mesh::OperatorKind::clamped, memory);
   s.weight.assign(real_halves, 0);
   for (std::int32_t h = 0; h < real_halves; ++h) {
     const std::int32_t a = std::min(corner[h], corner[next(h)]), b = std::max(corner[h], corner[next(h)]);
@@ -274,4 +274,4 @@ FluxSurface FluxSurface::make(const Mesh& mesh, const Topology& topology, Memory
   return s;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

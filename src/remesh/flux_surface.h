@@ -12,7 +12,7 @@
 #include "mesh/laplacian.h"
 #include "remesh/table.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 struct FluxSurface {
   explicit FluxSurface(Memory& memory)
@@ -25,7 +25,7 @@ struct FluxSurface {
         component(memory) {}
   // Throws HF_ERROR_UNSUPPORTED (index: a vertex of the caller) in two cases, each for more than 5 % of the edges
   // between triangles. The edges join three or more triangles, or they must be cut so that all triangles can agree.
-  static FluxSurface make(const Mesh& mesh, const Topology& topology, Memory& memory);
+  static FluxSurface make(const mesh::Mesh& mesh, const mesh::Topology& topology, Memory& memory);
 
   std::int32_t vertex_count() const noexcept { return out.size(); }
   std::int32_t half_count() const noexcept { return tail.size(); }
@@ -49,4 +49,4 @@ struct FluxSurface {
   std::int32_t euler_characteristic = 0;  // of the surface before its borders are closed
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -4,9 +4,9 @@
 #include "mesh/vertex_lists.h"
 #include "remesh/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
-Vector<std::int32_t> read_seeds(const Mesh& mesh, const hf_streamlines& lines, Memory& memory) {
+Vector<std::int32_t> read_seeds(const mesh::Mesh& mesh, const hf_streamlines& lines, Memory& memory) {
   if (lines.seed_count > most_streamlines)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "seed_count is %u; it must be up to %u", lines.seed_count,
          most_streamlines);
@@ -16,9 +16,9 @@ Vector<std::int32_t> read_seeds(const Mesh& mesh, const hf_streamlines& lines, M
   Vector<std::int32_t> seeds(&memory);
   if (lines.seed_count) {
     require(lines.seeds, "inout_lines->seeds");
-    append_usable(mesh, lines.seed_count, lines.seeds, "seeds", seeds);
+    mesh::append_usable(mesh, lines.seed_count, lines.seeds, "seeds", seeds);
   }
   return seeds;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -6,7 +6,7 @@
 
 #include "remesh/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -162,13 +162,13 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
                              NearFaces* known) const {
   Soup soup(*memory_);
   soup.make(mesh);
-  const NearestTriangle quads(span_of(mesh.position), span_of(soup.corners), *memory_);
+  const mesh::NearestTriangle quads(span_of(mesh.position), span_of(soup.corners), *memory_);
   double worst = out_misses ? tolerance : 0;
   Table<double> distance(*memory_);
   Table<std::int32_t> nearest(*memory_);
   // Stores distances of samples above `tolerance`. Without out_misses it stores only distances above all earlier ones
   // of the same thread's job. All others are 0.
-  auto measure_samples = [&](const NearestTriangle& tree, const Table<Sample>& samples,
+  auto measure_samples = [&](const mesh::NearestTriangle& tree, const Table<Sample>& samples,
                              const Table<std::int32_t>* faces) {
     distance.assign(samples.size(), 0);
     nearest.assign(samples.size(), none);
@@ -179,7 +179,7 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
       double least = out_misses ? tolerance * tolerance : 0;
       for (std::int32_t i = first; i < std::min(first + samples_a_piece, samples.size()); ++i) {
         if (samples[i].hint >= 0 && (i == first || samples[i].face != samples[i - 1].face)) hint = samples[i].hint;
-        const NearestTriangle::Found found = tree.find(samples[i].point, hint, least);
+        const mesh::NearestTriangle::Found found = tree.find(samples[i].point, hint, least);
         hint = found.triangle;
         if (found.squared <= least) continue;
         distance[i] = std::sqrt(found.squared);
@@ -214,4 +214,4 @@ double QuadDistance::measure(const QuadMesh& mesh, double tolerance, Vector<Quad
   return worst;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

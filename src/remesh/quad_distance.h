@@ -14,7 +14,7 @@
 #include "mesh/nearest_triangle.h"
 #include "remesh/quad_mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 struct QuadMiss {
   static constexpr std::int32_t of_surface = -1, of_quads = -2;
@@ -66,8 +66,8 @@ class QuadDistance {
   Memory* memory_;
   JobRunner* jobs_;
   Table<std::int32_t> corners_;  // corners of the surface's triangles
-  NearestTriangle tree_;
+  mesh::NearestTriangle tree_;
   Table<Sample> samples_;  // points of the surface, in the order of the search tree
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

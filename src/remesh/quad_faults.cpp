@@ -2,13 +2,13 @@
 
 #include "mesh/box_tree.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 struct HalfQuad {
   const std::int32_t* quad;
   Vec3 corner[3];
-  ItemBox box;
+  mesh::ItemBox box;
 };
 
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
@@ -24,7 +24,7 @@ bool passes(const Vec3& p, const Vec3& q, const Vec3* t) noexcept {
 }
 
 bool cross_each_other(const HalfQuad& a, const HalfQuad& b) noexcept {
-  if (squared_distance(a.box, b.box) > 0) return false;
+  if (mesh::squared_distance(a.box, b.box) > 0) return false;
   for (int i = 0; i < 4; ++i) {
     for (int k = 0; k < 4; ++k) {
       if (a.quad[i] == b.quad[k]) return false;
@@ -54,7 +54,7 @@ QuadFaults faults_near(const QuadMesh& mesh, const Vec3& place, double radius, M
     const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
     for (int k = 0; k < 4; ++k) out.turned += !(dot(cross(p[(k + 1) % 4] - p[k], p[(k + 3) % 4] - p[k]), normal) > 0);
     for (int k = 1; k < 3; ++k) {
-      HalfQuad half{c, {p[0], p[k], p[k + 1]}, ItemBox::of(p[0])};
+      HalfQuad half{c, {p[0], p[k], p[k + 1]}, mesh::ItemBox::of(p[0])};
       half.box.take(p[k]);
       half.box.take(p[k + 1]);
       halves.push_back(half);
@@ -66,4 +66,4 @@ QuadFaults faults_near(const QuadMesh& mesh, const Vec3& place, double radius, M
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

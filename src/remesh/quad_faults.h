@@ -8,7 +8,7 @@
 #pragma once
 #include "remesh/quad_mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 struct QuadFaults {
   std::int32_t turned = 0;    // corners
@@ -18,4 +18,4 @@ struct QuadFaults {
 // Counts the faults of quads with a corner within `radius` of `place`.
 QuadFaults faults_near(const QuadMesh& mesh, const Vec3& place, double radius, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -36,7 +36,7 @@ Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept
   return p;
 }
 
-void locate_in_mesh(const FluxSurface& surface, const Mesh& mesh, QuadMesh& quads) {
+void locate_in_mesh(const FluxSurface& surface, const mesh::Mesh& mesh, QuadMesh& quads) {
   for (SurfacePoint& point : quads.location) {
     const std::int32_t* corners = mesh.triangle(point.triangle);
     const SurfacePoint here = point;
@@ -89,4 +89,4 @@ void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory
          static_cast<long long>(found), euler_characteristic);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -5,7 +5,7 @@
 #pragma once
 #include "remesh/flux_surface.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 // A point of the surface in a triangle, with the barycentric weights of its corners.
 struct SurfacePoint {
@@ -52,9 +52,9 @@ void grow_marks(const QuadMesh& mesh, std::int32_t rings, Table<std::uint8_t>& m
 Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept;
 
 // Changes the weights of all places to the order of the Mesh's corners: FluxSurface may have turned triangles.
-void locate_in_mesh(const FluxSurface& surface, const Mesh& mesh, QuadMesh& quads);
+void locate_in_mesh(const FluxSurface& surface, const mesh::Mesh& mesh, QuadMesh& quads);
 
 // Throws HF_ERROR_INTERNAL with a message that names the fault.
 void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

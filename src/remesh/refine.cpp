@@ -6,7 +6,7 @@
 #include "remesh/constants.h"
 #include "remesh/relax.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 constexpr std::int32_t none = -1;
@@ -113,4 +113,4 @@ std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, M
   return added;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -9,7 +9,7 @@
 #pragma once
 #include "remesh/quad_mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 // Replaces each quad at a marked vertex by three. A marked vertex must not lie on a border. No
 // quad may have two marked vertices.
@@ -20,4 +20,4 @@ void refine_quads(const FluxSurface& surface, QuadMesh& mesh, const Table<std::u
 // inner vertex with at least four quads.
 std::int32_t split_vertex(QuadMesh& mesh, std::int32_t v, const Vec3& towards, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

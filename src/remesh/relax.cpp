@@ -7,7 +7,7 @@
 #include "base/hypotenuse.h"
 #include "remesh/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 Vec3 triangle_normal(const FluxSurface& s, std::int32_t t) {
@@ -175,4 +175,4 @@ void relax_quads(const FluxSurface& s, QuadMesh& mesh, const RelaxOptions& optio
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

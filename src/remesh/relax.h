@@ -15,7 +15,7 @@
 #include "base/progress.h"
 #include "remesh/quad_mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 struct RelaxOptions {
   std::int32_t rounds = 0;
@@ -34,4 +34,4 @@ inline Vec3 unit(Vec3 a) noexcept {
 // Returns the point reached from `from` by walking along the vector `way`, projected to the triangle.
 SurfacePoint walk_surface(const FluxSurface& surface, SurfacePoint from, Vec3 way) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

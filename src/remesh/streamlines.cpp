@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 namespace {
 
@@ -29,7 +29,7 @@ int spare_exponent(Span<const double> values) {
 
 }  // namespace
 
-FlowTracer::FlowTracer(std::shared_ptr<const Core> core)
+FlowTracer::FlowTracer(std::shared_ptr<const surface::Core> core)
     : core_(std::move(core)),
       surface_(FluxSurface::make(core_->mesh, core_->topology(), *core_->memory)),
       fan_(core_->size(), -1, *core_->memory) {
@@ -179,4 +179,4 @@ StreamlineSet FlowTracer::trace(Span<const double> u, std::uint32_t line_count, 
   return finished();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

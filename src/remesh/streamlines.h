@@ -10,10 +10,10 @@
 // The surface is prepared once. A trace costs O(n log n) to sort n vertices, and O(degree) per edge that a line runs
 // along.
 #pragma once
-#include "engine/core.h"
 #include "remesh/flux_field.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 struct StreamlineSet {
   explicit StreamlineSet(Memory& memory) : point(&memory), value(&memory), start(&memory), from(&memory), to(&memory) {}
@@ -25,8 +25,8 @@ struct StreamlineSet {
 
 class FlowTracer {
  public:
-  explicit FlowTracer(std::shared_ptr<const Core> core);
-  const Core& core() const noexcept { return *core_; }
+  explicit FlowTracer(std::shared_ptr<const surface::Core> core);
+  const surface::Core& core() const noexcept { return *core_; }
   const FluxSurface& surface() const noexcept { return surface_; }
 
   // Traces line_count lines from the minima, each for the same flux. With seeds it traces one line through every seed
@@ -38,9 +38,9 @@ class FlowTracer {
   void follow(const FluxField& field, FluxPoint p, bool upward, StreamlineSet& out, std::int32_t& end) const;
   Vec3 place(const FluxField& field, FluxPoint p) const noexcept;
 
-  std::shared_ptr<const Core> core_;
+  std::shared_ptr<const surface::Core> core_;
   FluxSurface surface_;
   Table<std::int32_t> fan_;  // by inner vertex: its first copy in surface_ (one copy per fan of triangles)
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/span.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 template <class T>
 class Table {
@@ -51,4 +51,4 @@ Span<const T> span_of(const Table<T>& table) noexcept {
   return {table.data(), static_cast<std::size_t>(table.size())};
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

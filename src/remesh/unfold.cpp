@@ -7,7 +7,7 @@
 #include "remesh/constants.h"
 #include "remesh/relax.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 namespace {
 
 Vec3 area_vector(const Vec3* p) noexcept { return cross(p[2] - p[0], p[3] - p[1]); }
@@ -267,4 +267,4 @@ double unfold_quads(const FluxSurface& surface, const QuadDistance& distance, do
   return unfolder.run() ? unfolder.hold(distance, away) : away;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -11,7 +11,7 @@
 #pragma once
 #include "remesh/quad_distance.h"
 
-namespace hf_inner {
+namespace hf_inner::remesh {
 
 // Unfolds. The mesh may then lie farther from the surface; the caller judges that.
 void unfold_corners(const FluxSurface& surface, double edge_length, QuadMesh& mesh, Memory& memory);
@@ -21,4 +21,4 @@ void unfold_corners(const FluxSurface& surface, double edge_length, QuadMesh& me
 double unfold_quads(const FluxSurface& surface, const QuadDistance& distance, double edge_length, double away,
                     QuadMesh& mesh, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::remesh

@@ -4,7 +4,7 @@
 
 #include "retarget/match.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 std::size_t bone_count(const Segments& chain) noexcept { return chain.count() - (chain.tip.joint >= 0 ? 0 : 1); }
 
@@ -66,7 +66,7 @@ void align_chain(const Retargeter& r, ChainPair& pair, Aligning how, Turn before
   Turn turn = shortest_turn(before * (own(equal ? bones : nt) - own(0)), whole) * before;
   Vec3 first = wanted(1) - wanted(0);  // of the bones of the source
   if (how != Aligning::line && equal && bones > 1 && norm(whole) > 0) {
-    if (pair.role == Role::leg && bones == 2) first = wanted_knee(r, pair, turn, whole);
+    if (pair.role == skeleton::Role::leg && bones == 2) first = wanted_knee(r, pair, turn, whole);
     const Vec3 line = unit_vector(whole);
     const double length = norm(own(bones) - own(0));
     turn = bend_turn(line, turn * (own(1) - own(0)), (length / norm(whole)) * first, length) * turn;
@@ -80,4 +80,4 @@ void align_chain(const Retargeter& r, ChainPair& pair, Aligning how, Turn before
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstddef>
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 // A joint of a limb that bends by more than this cosine's angle at rest (20 degrees) ends a segment. Straighter ones
 // halve a bone, as twist joints in the chain do. Elbows of people at rest bend less: then the middle joint counts.
@@ -70,4 +70,4 @@ constexpr double no_length = 1e-5;
 // Poses taken for equal skeletons hold rotations that differ by no more than this in a quaternion.
 constexpr double same_turn = 1e-5;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -6,7 +6,7 @@
 #include "retarget/retargeter.h"
 #include "retarget/sole.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 namespace {
 
 double smooth_step(double low, double high, double x) noexcept {
@@ -191,4 +191,4 @@ void Retargeter::measure_hover() {
   report_.hover = hover_sum / hover_frames;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -4,7 +4,7 @@
 
 #include "retarget/match.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 namespace {
 
 Vec3 hip_to_foot(const Rig& rig, const RigLeg& leg) noexcept {
@@ -20,10 +20,10 @@ Vec3 stance_of(const Retargeter& r, std::size_t pair) {
     return in_axes(r.target, hip_to_foot(r.target, r.target.legs[at(foot.target)]) -
                                  r.scale * (r.across * hip_to_foot(r.source, r.source.legs[at(foot.source)])));
   };
-  const Side side = r.target.legs[at(r.feet[pair].target)].side;
+  const skeleton::Side side = r.target.legs[at(r.feet[pair].target)].side;
   Vec3 sum = difference(r.feet[pair]);
-  const std::size_t mate = side == Side::left ? pair + 1 : pair - 1;
-  if (side != Side::middle && mate < r.feet.size() && r.target.legs[at(r.feet[mate].target)].side != side) {
+  const std::size_t mate = side == skeleton::Side::left ? pair + 1 : pair - 1;
+  if (side != skeleton::Side::middle && mate < r.feet.size() && r.target.legs[at(r.feet[mate].target)].side != side) {
     const Vec3 other = difference(r.feet[mate]);
     sum = 0.5 * (sum + Vec3{-other.x, other.y, other.z});
   }
@@ -59,7 +59,7 @@ void Retargeter::find_feet() {
       foot.aligned = people && !options.foot_path;
       const ChainPair* pair = nullptr;
       for (const ChainPair& p : pairs) {
-        if (p.role == Role::leg && p.target.joints[0] == leg.segments.joints[0]) pair = &p;
+        if (p.role == skeleton::Role::leg && p.target.joints[0] == leg.segments.joints[0]) pair = &p;
       }
       if (!pair) break;
       foot.knee = knee_side_of(target, leg, pair->align[0]);
@@ -82,4 +82,4 @@ void Retargeter::find_feet() {
   for (std::size_t k = 0; k < feet.size(); ++k) feet[k].stance = stance_of(*this, k);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "retarget/retargeter.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 const char* scale_source_name(ScaleSource source) noexcept {
   static constexpr const char* names[] = {"given", "leg lengths", "hip heights", "body heights"};
@@ -246,4 +246,4 @@ const RetargetReport& Retarget::report() const noexcept { return self_->report()
 void Retarget::partners(std::uint32_t* out) const noexcept { self_->partners(out); }
 void Retarget::copy_state(const Retarget& other) { self_->copy_state(*other.self_); }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

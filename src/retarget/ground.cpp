@@ -5,7 +5,7 @@
 #include "retarget/legs_bend.h"
 #include "retarget/match.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 namespace {
 
 // How deep a part is below its lowest allowed height.
@@ -22,7 +22,7 @@ double depth_of(const Retargeter& r, const GroundPart& part, Vec3* deepest) noex
 }
 
 void add_part(Retargeter& r, const RetargetSide& s, const RetargetSide& t, GroundPart part, Index source_root,
-              bool (*takes)(Role)) {
+              bool (*takes)(skeleton::Role)) {
   const auto points = [&](const Rig& rig, const RetargetSide& side, Index root) {
     Vector<std::uint8_t> mask(at(rig.count), 0, &r.memory);
     for (Index j = 0; j < rig.count; ++j) mask[at(j)] = takes(side.character.roles[at(j)]) && rig.is_below(j, root);
@@ -37,14 +37,18 @@ void add_part(Retargeter& r, const RetargetSide& s, const RetargetSide& t, Groun
   r.parts.push_back(std::move(part));
 }
 
-bool is_trunk(Role role) { return role == Role::spine || role == Role::shoulder; }
-bool is_head(Role role) {
-  return role == Role::neck || role == Role::head || role == Role::jaw || role == Role::ear || role == Role::eye ||
-         role == Role::antenna;
+bool is_trunk(skeleton::Role role) { return role == skeleton::Role::spine || role == skeleton::Role::shoulder; }
+bool is_head(skeleton::Role role) {
+  return role == skeleton::Role::neck || role == skeleton::Role::head || role == skeleton::Role::jaw ||
+         role == skeleton::Role::ear || role == skeleton::Role::eye || role == skeleton::Role::antenna;
 }
-bool is_tail(Role role) { return role == Role::tail; }
-bool is_leg(Role role) { return role == Role::leg || role == Role::foot || role == Role::toe; }
-bool is_hand(Role role) { return role == Role::hand || role == Role::finger || role == Role::arm; }
+bool is_tail(skeleton::Role role) { return role == skeleton::Role::tail; }
+bool is_leg(skeleton::Role role) {
+  return role == skeleton::Role::leg || role == skeleton::Role::foot || role == skeleton::Role::toe;
+}
+bool is_hand(skeleton::Role role) {
+  return role == skeleton::Role::hand || role == skeleton::Role::finger || role == skeleton::Role::arm;
+}
 
 // Turns the part about its root until its lowest point is on the ground.
 void pitch_up(Retargeter& r, const GroundPart& part) {
@@ -87,15 +91,15 @@ void bend_up(Retargeter& r, GroundPart& part) {
 
 void Retargeter::find_parts(const RetargetSide& s, const RetargetSide& t) {
   // A leg that no goal keeps over the ground, such as a leg of one bone, lifts the body.
-  for (const Chain& chain : t.character.chains) {
+  for (const skeleton::Chain& chain : t.character.chains) {
     const Index root = static_cast<Index>(t.character.chain_joints[chain.first]);
     const bool kept = std::any_of(feet.begin(), feet.end(), [&](const FootPair& foot) {
       return target.legs[at(foot.target)].segments.joints[0] == root;
     });
-    if (chain.role != Role::leg || kept) continue;
+    if (chain.role != skeleton::Role::leg || kept) continue;
     GroundPart leg(memory);
     leg.root = root;
-    const Chain* by = find_chain(s.character, Role::leg, chain.side, chain.number);
+    const skeleton::Chain* by = find_chain(s.character, skeleton::Role::leg, chain.side, chain.number);
     add_part(*this, s, t, std::move(leg), by ? static_cast<Index>(s.character.chain_joints[by->first]) : -1, is_leg);
   }
   GroundPart trunk(memory);
@@ -108,15 +112,15 @@ void Retargeter::find_parts(const RetargetSide& s, const RetargetSide& t) {
     head.way = target.upright ? GroundPart::Way::lift : GroundPart::Way::pitch;
     add_part(*this, s, t, std::move(head), source.head >= 0 ? top(source) : -1, is_head);
   }
-  for (const Chain& chain : t.character.chains) {
-    if (chain.role != Role::tail && chain.role != Role::arm) continue;
-    const Chain* by = find_chain(s.character, chain.role, chain.side, chain.number);
+  for (const skeleton::Chain& chain : t.character.chains) {
+    if (chain.role != skeleton::Role::tail && chain.role != skeleton::Role::arm) continue;
+    const skeleton::Chain* by = find_chain(s.character, chain.role, chain.side, chain.number);
     if (!by || !wanted[at(static_cast<Index>(t.character.chain_joints[chain.first]))]) continue;
     GroundPart part(memory);
     part.root = static_cast<Index>(t.character.chain_joints[chain.first]);
     part.way = GroundPart::Way::pitch;
     Index source_root = static_cast<Index>(s.character.chain_joints[by->first]);
-    if (chain.role == Role::arm) {  // from the wrist on; an arm without a hand from its last joint on
+    if (chain.role == skeleton::Role::arm) {  // from the wrist on; an arm without a hand from its last joint on
       part.way = GroundPart::Way::bend;
       part.arm = cut_chain(target, t.character, chain, memory);
       part.root = part.arm.tip.joint;
@@ -125,7 +129,7 @@ void Retargeter::find_parts(const RetargetSide& s, const RetargetSide& t) {
       part.places.resize(part.arm.count() + 1);
       part.bends.resize(part.arm.count());
     }
-    add_part(*this, s, t, std::move(part), source_root, chain.role == Role::tail ? is_tail : is_hand);
+    add_part(*this, s, t, std::move(part), source_root, chain.role == skeleton::Role::tail ? is_tail : is_hand);
   }
 }
 
@@ -147,4 +151,4 @@ void Retargeter::clear_ground() {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -6,7 +6,7 @@
 #include "retarget/rig.h"
 #include "retarget/sole.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 void find_ground_velocity(const RetargetSide& side, const double* poses, std::uint32_t count, double seconds,
                           double velocity[3], Memory& memory) {
@@ -57,4 +57,4 @@ void find_ground_velocity(const RetargetSide& side, const double* poses, std::ui
   velocity[2] = best.z * rig.leg_length;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

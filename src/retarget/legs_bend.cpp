@@ -6,7 +6,7 @@
 #include "base/algebra.h"
 #include "retarget/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 namespace {
 
 // A distance above the soft reach comes ever less near to the full one.
@@ -101,4 +101,4 @@ void turn_segments(const Segments& leg, const Vector<Turn>& bends, bool back, St
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 void Matcher::follow(Index target, Index a, Index b, double share, Turn align) {
   if (r.wanted[at(target)]) return;
@@ -95,8 +95,8 @@ void follow_arcs(Matcher& m, const ChainPair& pair) {
 
 // A limb of one bone points where the hand or foot of the source is. The last bone of the source would kick it.
 bool follows_line(const ChainPair& pair) {
-  return (pair.role == Role::arm || pair.role == Role::leg) && pair.target.count() == 1 && pair.source.count() > 1 &&
-         pair.source.tip.joint >= 0;
+  return (pair.role == skeleton::Role::arm || pair.role == skeleton::Role::leg) && pair.target.count() == 1 &&
+         pair.source.count() > 1 && pair.source.tip.joint >= 0;
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ void Matcher::add_pair(ChainPair pair, Aligning how, Turn before) {
 }
 
 void Matcher::add_path(const Vector<Index>& a, const Vector<Index>& b, Index a_before, Index b_before, Index a_end,
-                       Index b_end, Role role) {
+                       Index b_end, skeleton::Role role) {
   if (a.empty() || b.empty()) return;
   ChainPair pair(memory);
   pair.role = role;
@@ -138,22 +138,22 @@ void Matcher::add_path(const Vector<Index>& a, const Vector<Index>& b, Index a_b
 
 // The joints between the trunk and a limb.
 void Matcher::add_collars(const Segments& a, const Segments& b) {
-  const auto path = [&](const Rig& rig, const Character& c, Index j) {
+  const auto path = [&](const Rig& rig, const skeleton::Character& c, Index j) {
     Vector<Index> out(&memory);
-    for (; j >= 0 && c.roles[at(j)] == Role::shoulder; j = rig.carriers[at(j)]) out.push_back(j);
+    for (; j >= 0 && c.roles[at(j)] == skeleton::Role::shoulder; j = rig.carriers[at(j)]) out.push_back(j);
     std::reverse(out.begin(), out.end());
     return std::pair(std::move(out), j);
   };
   const auto [from, from_before] = path(r.source, s.character, a.before);
   const auto [to, to_before] = path(r.target, t.character, b.before);
-  add_path(from, to, from_before, to_before, a.joints[0], b.joints[0], Role::shoulder);
+  add_path(from, to, from_before, to_before, a.joints[0], b.joints[0], skeleton::Role::shoulder);
 }
 
 namespace {
 
-const Chain* next_of(const Character& c, const Chain& chain, Role role) {
+const skeleton::Chain* next_of(const skeleton::Character& c, const skeleton::Chain& chain, skeleton::Role role) {
   const Index index = static_cast<Index>(&chain - c.chains.data());
-  for (const Chain& next : c.chains) {
+  for (const skeleton::Chain& next : c.chains) {
     if (next.parent == index && next.role == role && next.side == chain.side) return &next;
   }
   return nullptr;
@@ -162,7 +162,7 @@ const Chain* next_of(const Character& c, const Chain& chain, Role role) {
 }  // namespace
 
 // Pairs the chains that continue a limb: hands, feet and toes.
-void Matcher::add_next(const Chain& a, const Chain& b, Role role, Turn align) {
+void Matcher::add_next(const skeleton::Chain& a, const skeleton::Chain& b, skeleton::Role role, Turn align) {
   ChainPair pair(memory);
   pair.role = role;
   pair.side = b.side;
@@ -171,7 +171,7 @@ void Matcher::add_next(const Chain& a, const Chain& b, Role role, Turn align) {
   add_pair(std::move(pair), Aligning::none, align);
 }
 
-void Matcher::add_limb(const Chain& a, const Chain& b, Aligning how, bool standing) {
+void Matcher::add_limb(const skeleton::Chain& a, const skeleton::Chain& b, Aligning how, bool standing) {
   ChainPair pair(memory);
   pair.role = b.role;
   pair.side = b.side;
@@ -180,55 +180,63 @@ void Matcher::add_limb(const Chain& a, const Chain& b, Aligning how, bool standi
   add_collars(pair.source, pair.target);
   add_pair(std::move(pair), r.options.align_rests ? how : Aligning::none, {});
   const Turn last = r.pairs.back().align.back();
-  const auto end_of = [](const Character& c, const Chain& limb) {
-    return next_of(c, limb, limb.role == Role::arm ? Role::hand : Role::foot);
+  const auto end_of = [](const skeleton::Character& c, const skeleton::Chain& limb) {
+    return next_of(c, limb, limb.role == skeleton::Role::arm ? skeleton::Role::hand : skeleton::Role::foot);
   };
-  const Chain *end_a = end_of(s.character, a), *end_b = end_of(t.character, b);
+  const skeleton::Chain *end_a = end_of(s.character, a), *end_b = end_of(t.character, b);
   if (!end_a || !end_b) {
-    if (b.role == Role::arm) add_fingers(end_a ? *end_a : a, end_b ? *end_b : b, last);
+    if (b.role == skeleton::Role::arm) add_fingers(end_a ? *end_a : a, end_b ? *end_b : b, last);
     return;
   }
-  add_next(*end_a, *end_b, end_b->role, b.role == Role::arm ? last : Turn{});
-  if (b.role == Role::arm) add_fingers(*end_a, *end_b, last);
+  add_next(*end_a, *end_b, end_b->role, b.role == skeleton::Role::arm ? last : Turn{});
+  if (b.role == skeleton::Role::arm) add_fingers(*end_a, *end_b, last);
   if (!standing) return;
-  const Chain *toe_a = next_of(s.character, *end_a, Role::toe), *toe_b = next_of(t.character, *end_b, Role::toe);
-  if (toe_a && toe_b) add_next(*toe_a, *toe_b, Role::toe, {});
+  const skeleton::Chain *toe_a = next_of(s.character, *end_a, skeleton::Role::toe),
+                        *toe_b = next_of(t.character, *end_b, skeleton::Role::toe);
+  if (toe_a && toe_b) add_next(*toe_a, *toe_b, skeleton::Role::toe, {});
 }
 
-Role flapping_partner(const Character& source, const Character& target, Side side, Role role) {
-  const auto has = [&](const Character& c, Role r) { return find_chain(c, r, side, 0) != nullptr; };
-  if (has(source, role) || role == Role::leg) return role;
+skeleton::Role flapping_partner(const skeleton::Character& source, const skeleton::Character& target,
+                                skeleton::Side side, skeleton::Role role) {
+  const auto has = [&](const skeleton::Character& c, skeleton::Role r) { return find_chain(c, r, side, 0) != nullptr; };
+  if (has(source, role) || role == skeleton::Role::leg) return role;
   // One limb of the source leads no two of the target.
-  for (const Role by : {Role::wing, Role::fin})
-    if (has(source, by) && !has(target, by)) return role == Role::arm || !has(target, Role::arm) ? by : Role::other;
-  return Role::other;
+  for (const skeleton::Role by : {skeleton::Role::wing, skeleton::Role::fin})
+    if (has(source, by) && !has(target, by))
+      return role == skeleton::Role::arm || !has(target, skeleton::Role::arm) ? by : skeleton::Role::other;
+  return skeleton::Role::other;
 }
 
 // Arms by number. Legs from behind; the front legs of an animal follow arms where there are no more legs. Arms flap as
 // wings or fins where the source has no arms, and these as one another. The bend of a fin is no elbow, so such pairs
 // are aligned by their lines alone.
 void Matcher::add_limbs() {
-  const auto count = [](const Character& c, Role role, Side side) {
+  const auto count = [](const skeleton::Character& c, skeleton::Role role, skeleton::Side side) {
     std::uint32_t found = 0;
-    for (const Chain& chain : c.chains) found += chain.role == role && chain.side == side;
+    for (const skeleton::Chain& chain : c.chains) found += chain.role == role && chain.side == side;
     return found;
   };
-  for (const Side side : {Side::left, Side::right, Side::middle}) {
-    const std::uint32_t sa = count(s.character, Role::arm, side), ta = count(t.character, Role::arm, side);
-    const std::uint32_t sl = count(s.character, Role::leg, side), tl = count(t.character, Role::leg, side);
-    const auto add = [&](Role a, std::uint32_t i, Role b, std::uint32_t k, Aligning how) {
-      const Chain *from = find_chain(s.character, a, side, i), *to = find_chain(t.character, b, side, k);
-      if (from && to) add_limb(*from, *to, how, a == Role::leg && b == Role::leg);
+  for (const skeleton::Side side : {skeleton::Side::left, skeleton::Side::right, skeleton::Side::middle}) {
+    const std::uint32_t sa = count(s.character, skeleton::Role::arm, side),
+                        ta = count(t.character, skeleton::Role::arm, side);
+    const std::uint32_t sl = count(s.character, skeleton::Role::leg, side),
+                        tl = count(t.character, skeleton::Role::leg, side);
+    const auto add = [&](skeleton::Role a, std::uint32_t i, skeleton::Role b, std::uint32_t k, Aligning how) {
+      const skeleton::Chain *from = find_chain(s.character, a, side, i), *to = find_chain(t.character, b, side, k);
+      if (from && to) add_limb(*from, *to, how, a == skeleton::Role::leg && b == skeleton::Role::leg);
     };
     for (std::uint32_t k = 0; k < std::min(sl, tl); ++k)
-      add(Role::leg, sl - 1 - k, Role::leg, tl - 1 - k, r.people ? Aligning::segments : Aligning::none);
+      add(skeleton::Role::leg, sl - 1 - k, skeleton::Role::leg, tl - 1 - k,
+          r.people ? Aligning::segments : Aligning::none);
     for (std::uint32_t k = 0; k < std::min(sa, ta); ++k)
-      add(Role::arm, k, Role::arm, k, r.source.upright == r.target.upright ? Aligning::segments : Aligning::whole);
-    if (ta == 0 && sa > 0 && tl > sl) add(Role::arm, 0, Role::leg, 0, Aligning::none);
-    if (sa == 0 && ta > 0 && sl > tl) add(Role::leg, 0, Role::arm, 0, Aligning::none);
-    for (const Role to : {Role::arm, Role::wing, Role::fin}) {
-      const Role by = flapping_partner(s.character, t.character, side, to);
-      if (by != to && by != Role::other && !(to == Role::arm && sl > tl)) add(by, 0, to, 0, Aligning::line);
+      add(skeleton::Role::arm, k, skeleton::Role::arm, k,
+          r.source.upright == r.target.upright ? Aligning::segments : Aligning::whole);
+    if (ta == 0 && sa > 0 && tl > sl) add(skeleton::Role::arm, 0, skeleton::Role::leg, 0, Aligning::none);
+    if (sa == 0 && ta > 0 && sl > tl) add(skeleton::Role::leg, 0, skeleton::Role::arm, 0, Aligning::none);
+    for (const skeleton::Role to : {skeleton::Role::arm, skeleton::Role::wing, skeleton::Role::fin}) {
+      const skeleton::Role by = flapping_partner(s.character, t.character, side, to);
+      if (by != to && by != skeleton::Role::other && !(to == skeleton::Role::arm && sl > tl))
+        add(by, 0, to, 0, Aligning::line);
     }
   }
 }
@@ -244,8 +252,8 @@ void Matcher::add_second_trunk() {
     for (Index steps = 0; j >= 0 && steps < r.target.count; ++steps, j = r.target.carriers[at(j)]) to_legs[at(j)] = 1;
   }
   for (const Index j : r.target.order) {
-    if (r.wanted[at(j)] || to_legs[at(j)] || t.character.roles[at(j)] != Role::spine ||
-        t.character.kinds[at(j)] != JointKind::body)
+    if (r.wanted[at(j)] || to_legs[at(j)] || t.character.roles[at(j)] != skeleton::Role::spine ||
+        t.character.kinds[at(j)] != skeleton::JointKind::body)
       continue;
     const auto distance = [&](Index a) { return norm(r.target.rest.place[at(a)] - r.target.rest.place[at(j)]); };
     const Index by =
@@ -258,18 +266,20 @@ void Matcher::add_second_trunk() {
 
 // Tails, wings, ears, and the parts of the trunk that lead to legs alone.
 void Matcher::add_others() {
-  for (const Chain& b : t.character.chains) {
-    const bool aligned = b.role == Role::wing;
-    const bool taken = b.role == Role::tail || b.role == Role::wing || b.role == Role::ear || b.role == Role::jaw ||
-                       b.role == Role::eye || b.role == Role::antenna || b.role == Role::fin || b.role == Role::spine;
-    const Chain* a = taken ? find_chain(s.character, b.role, b.side, b.number) : nullptr;
+  for (const skeleton::Chain& b : t.character.chains) {
+    const bool aligned = b.role == skeleton::Role::wing;
+    const bool taken = b.role == skeleton::Role::tail || b.role == skeleton::Role::wing ||
+                       b.role == skeleton::Role::ear || b.role == skeleton::Role::jaw ||
+                       b.role == skeleton::Role::eye || b.role == skeleton::Role::antenna ||
+                       b.role == skeleton::Role::fin || b.role == skeleton::Role::spine;
+    const skeleton::Chain* a = taken ? find_chain(s.character, b.role, b.side, b.number) : nullptr;
     if (!a) continue;
     ChainPair pair(memory);
     pair.role = b.role;
     pair.side = b.side;
     pair.source = cut_chain(r.source, s.character, *a, memory);
     pair.target = cut_chain(r.target, t.character, b, memory);
-    if (b.role == Role::spine) {  // the trunk has partners already
+    if (b.role == skeleton::Role::spine) {  // the trunk has partners already
       const auto open = [](const Vector<Index>& joints, const Vector<std::uint8_t>& done) {
         return std::none_of(joints.begin(), joints.end(), [&](Index j) { return done[at(j)] != 0; });
       };
@@ -286,21 +296,23 @@ void Retargeter::match_chains(const RetargetSide& s, const RetargetSide& t) {
   for (const Index joint : source.second_rows) matcher.used[at(joint)] = 1;
   const auto last = [](const Rig& rig) { return rig.trunk.empty() ? rig.mover : rig.trunk.back(); };
   const auto next = [](const Rig& rig) { return rig.neck.empty() ? rig.head : rig.neck[0]; };
-  matcher.add_path(source.trunk, target.trunk, source.mover, target.mover, next(source), next(target), Role::spine);
-  matcher.add_path(source.neck, target.neck, last(source), last(target), source.head, target.head, Role::neck);
+  matcher.add_path(source.trunk, target.trunk, source.mover, target.mover, next(source), next(target),
+                   skeleton::Role::spine);
+  matcher.add_path(source.neck, target.neck, last(source), last(target), source.head, target.head,
+                   skeleton::Role::neck);
   if (source.head >= 0 && target.head >= 0 && source.head != source.mover && target.head != target.mover)
     matcher.one_to_one(source.head, target.head);
   matcher.add_limbs();
   matcher.add_second_trunk();
   matcher.add_others();
   report_.matched_joints = static_cast<std::uint32_t>(follows.size());
-  const auto list = [&](const Character& c, const Vector<std::uint8_t>& done, Vector<std::uint32_t>& out) {
+  const auto list = [&](const skeleton::Character& c, const Vector<std::uint8_t>& done, Vector<std::uint32_t>& out) {
     for (std::uint32_t j = 0; j < c.kinds.size(); ++j) {
-      if (c.kinds[j] == JointKind::body && !done[j]) out.push_back(j);
+      if (c.kinds[j] == skeleton::JointKind::body && !done[j]) out.push_back(j);
     }
   };
   list(s.character, matcher.used, report_.unmatched_source);
   list(t.character, wanted, report_.unmatched_target);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -2,7 +2,7 @@
 #pragma once
 #include "retarget/retargeter.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 enum class Aligning : std::int32_t { none, line, whole, segments };
 
@@ -29,14 +29,14 @@ struct Matcher {
   // Adds the pair and lets each joint of the target follow.
   void add_pair(ChainPair pair, Aligning how, Turn before);
   void add_path(const Vector<Index>& a, const Vector<Index>& b, Index a_before, Index b_before, Index a_end,
-                Index b_end, Role role);
-  void add_limb(const Chain& a, const Chain& b, Aligning how, bool standing);
+                Index b_end, skeleton::Role role);
+  void add_limb(const skeleton::Chain& a, const skeleton::Chain& b, Aligning how, bool standing);
   void add_collars(const Segments& a, const Segments& b);
-  void add_next(const Chain& a, const Chain& b, Role role, Turn align);
-  void add_fingers(const Chain& a, const Chain& b, Turn align);
+  void add_next(const skeleton::Chain& a, const skeleton::Chain& b, skeleton::Role role, Turn align);
+  void add_fingers(const skeleton::Chain& a, const skeleton::Chain& b, Turn align);
   void add_limbs();
   void add_second_trunk();
   void add_others();
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -3,7 +3,7 @@
 
 #include "retarget/match.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 namespace {
 
 Vec3 bone(const Rig& rig, const Stance& stance, const Segments& chain, std::size_t k) noexcept {
@@ -33,11 +33,11 @@ void Retargeter::measure() {
     pair.sum += sum / static_cast<double>(bones);
     report_.chains[c].mean_degrees = pair.sum / frames;
     report_.chains[c].worst_degrees = pair.worst;
-    if (pair.role != Role::arm && pair.role != Role::leg) continue;
+    if (pair.role != skeleton::Role::arm && pair.role != skeleton::Role::leg) continue;
     limbs += report_.chains[c].mean_degrees;
     limb_count += 1;
   }
   report_.limb_degrees = limb_count > 0 ? limbs / limb_count : 0;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

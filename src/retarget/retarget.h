@@ -23,7 +23,7 @@
 #include "base/memory.h"
 #include "skeleton/character.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 // Which joint gets the travel over the ground. keep: the hips. to_root: the topmost joint above the hips. in_place: no
 // joint, the body stays in its place.
@@ -49,15 +49,16 @@ struct RetargetOptions {
 // alike, 10 numbers per joint: translation, rotation x y z w and scale, relative to the parent. Null: the rest pose of
 // the input.
 struct RetargetSide {
-  const CharacterInput& input;
-  const Character& character;
+  const skeleton::CharacterInput& input;
+  const skeleton::Character& character;
   const double* rest = nullptr;
 };
 
 // The part of the source that leads the arm, wing or fin of the target on one side: the same part, else a wing or a fin
 // if the target has none of that kind. other: there is none. Arms do not lead wings and fins: they rest spread where
 // arms hang, so that a walk would fold them down.
-Role flapping_partner(const Character& source, const Character& target, Side side, Role role);
+skeleton::Role flapping_partner(const skeleton::Character& source, const skeleton::Character& target,
+                                skeleton::Side side, skeleton::Role role);
 
 enum class ScaleSource : std::int32_t { given, legs, hips, height };
 const char* scale_source_name(ScaleSource source) noexcept;
@@ -66,8 +67,8 @@ const char* scale_source_name(ScaleSource source) noexcept;
 // the source, in degrees. The figures count all frames since the last reset. They are 0 for a chain of one joint, and
 // for a chain whose rest is not aligned.
 struct ChainReport {
-  Role role = Role::other;
-  Side side = Side::middle;
+  skeleton::Role role = skeleton::Role::other;
+  skeleton::Side side = skeleton::Side::middle;
   std::uint32_t source_joints = 0, target_joints = 0;
   double mean_degrees = 0, worst_degrees = 0;
 };
@@ -125,4 +126,4 @@ class Retarget {
   std::shared_ptr<Retargeter> self_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -2,7 +2,7 @@
 #pragma once
 #include "retarget/rig.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 // A joint of the target turns as one joint of the source, or between two: across x turn x post. A limb of one bone
 // turns further, to the line from root to tip of the source's limb.
@@ -17,8 +17,8 @@ struct Follow {
 struct ChainPair {
   explicit ChainPair(Memory& memory) : source(memory), target(memory), align(&memory) {}
   Segments source, target;
-  Role role = Role::other;
-  Side side = Side::middle;
+  skeleton::Role role = skeleton::Role::other;
+  skeleton::Side side = skeleton::Side::middle;
   Vector<Turn> align;  // of each segment of the target
   bool compared = false;
   double sum = 0, worst = 0;  // degrees, over bones and frames
@@ -134,4 +134,4 @@ class Retargeter {
   RetargetReport report_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

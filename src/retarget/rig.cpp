@@ -6,7 +6,7 @@
 #include "base/arguments.h"
 #include "base/error.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 void Stance::resize(std::size_t joints) {
   linear.resize(joints);
@@ -42,7 +42,7 @@ void read_joint(const double* m, std::size_t joint, const char* name, Vec3& tran
 }
 
 void check_side(const RetargetSide& side, const char* name) {
-  const CharacterInput& in = side.input;
+  const skeleton::CharacterInput& in = side.input;
   require_list(in.joint_count, in.parents, "joint_count", "parents");
   require_either(in.matrices, in.trs, "matrices and trs");
   if (side.character.kinds.size() != in.joint_count)
@@ -51,7 +51,7 @@ void check_side(const RetargetSide& side, const char* name) {
          in.joint_count, side.character.kinds.size());
 }
 
-void set_axes(Rig& rig, const Character& character) {
+void set_axes(Rig& rig, const skeleton::Character& character) {
   rig.up = character.up;
   rig.forward = character.forward;
   rig.left = character.left;
@@ -66,7 +66,7 @@ void set_axes(Rig& rig, const Character& character) {
 void face_rest(Rig& rig) {
   for (std::size_t k = 0; k + 1 < rig.legs.size(); ++k) {
     const RigLeg &a = rig.legs[k], &b = rig.legs[k + 1];
-    if (a.side != Side::left || b.side != Side::right) continue;
+    if (a.side != skeleton::Side::left || b.side != skeleton::Side::right) continue;
     const std::size_t l = at(a.segments.joints[0]), r = at(b.segments.joints[0]);
     const Vec3 was = rig.level(rig.file_rest.place[l] - rig.file_rest.place[r]);
     const Vec3 is = rig.level(rig.rest.place[l] - rig.rest.place[r]);
@@ -83,7 +83,7 @@ void face_rest(Rig& rig) {
 // Translation, rotation and scale of each joint, relative to its parent. Shear is dropped.
 void read_rest(Rig& rig, const RetargetSide& side, Memory& memory) {
   const std::size_t n = at(rig.count);
-  const CharacterInput& in = side.input;
+  const skeleton::CharacterInput& in = side.input;
   rig.translations.resize(n);
   rig.scales.resize(n);
   rig.rotations.resize(n);
@@ -293,4 +293,4 @@ Vec3 Rig::hip_place(const Stance& stance) const noexcept {
   return (1 / static_cast<double>(legs.size())) * sum;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

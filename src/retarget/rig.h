@@ -6,7 +6,7 @@
 #include "retarget/retarget.h"
 #include "retarget/turns.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 // The joints of a rig in the space of its model.
 struct Stance {
@@ -45,7 +45,7 @@ struct Segments {
 struct RigLeg {
   explicit RigLeg(Memory& memory) : segments(memory), sole(&memory) {}
   Segments segments;
-  Side side = Side::middle;
+  skeleton::Side side = skeleton::Side::middle;
   Index foot = -1, toe = -1;
   double length = 0;       // of the segments
   double sole_length = 0;  // the furthest point of the sole from the ankle, over the ground
@@ -99,9 +99,9 @@ struct Rig {
 // rig.cpp, rig_limbs.cpp, rig_skin.cpp
 void read_rest(Rig& rig, const RetargetSide& side, Memory& memory);
 void find_order(Rig& rig, Memory& memory);
-void find_trunk(Rig& rig, const Character& character);
-Segments cut_chain(const Rig& rig, const Character& character, const Chain& chain, Memory& memory);
-void find_legs(Rig& rig, const Character& character, Memory& memory);
+void find_trunk(Rig& rig, const skeleton::Character& character);
+Segments cut_chain(const Rig& rig, const skeleton::Character& character, const skeleton::Chain& chain, Memory& memory);
+void find_legs(Rig& rig, const skeleton::Character& character, Memory& memory);
 void find_soles(Rig& rig, const RetargetSide& side, Memory& memory);
 // Sets `ends`: twice the way from each joint to the middle of the vertices that it moves most. A leg without a foot
 // ends where its ankle would be.
@@ -109,6 +109,7 @@ void find_ends(Rig& rig, const RetargetSide& side, Memory& memory);
 // The outermost points that the joints marked in `part` own.
 Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const Vector<std::uint8_t>& part,
                                Memory& memory);
-const Chain* find_chain(const Character& character, Role role, Side side, std::uint32_t number);
+const skeleton::Chain* find_chain(const skeleton::Character& character, skeleton::Role role, skeleton::Side side,
+                                  std::uint32_t number);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -4,10 +4,11 @@
 
 #include "retarget/rig.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
-const Chain* find_chain(const Character& character, Role role, Side side, std::uint32_t number) {
-  for (const Chain& chain : character.chains) {
+const skeleton::Chain* find_chain(const skeleton::Character& character, skeleton::Role role, skeleton::Side side,
+                                  std::uint32_t number) {
+  for (const skeleton::Chain& chain : character.chains) {
     if (chain.role == role && chain.side == side && chain.number == number) return &chain;
   }
   return nullptr;
@@ -16,29 +17,32 @@ const Chain* find_chain(const Character& character, Role role, Side side, std::u
 namespace {
 
 // Returns the chain that begins at the tip of another, or null.
-const Chain* next_chain(const Character& character, const Chain& chain, Role role) {
+const skeleton::Chain* next_chain(const skeleton::Character& character, const skeleton::Chain& chain,
+                                  skeleton::Role role) {
   const Index index = static_cast<Index>(&chain - character.chains.data());
-  for (const Chain& next : character.chains) {
+  for (const skeleton::Chain& next : character.chains) {
     if (next.parent == index && next.role == role && next.side == chain.side) return &next;
   }
   return nullptr;
 }
 
-Index first_joint(const Character& character, const Chain& chain) {
+Index first_joint(const skeleton::Character& character, const skeleton::Chain& chain) {
   return static_cast<Index>(character.chain_joints[chain.first]);
 }
 
 // A limb ends at the hand or foot. Other chains end in the middle of what hangs on their last joint, and limbs on
 // which nothing hangs where their vertices end.
-Tip find_tip(const Rig& rig, const Character& character, const Chain& chain, Index last) {
-  const Role next = chain.role == Role::arm ? Role::hand : chain.role == Role::leg ? Role::foot : Role::other;
-  if (next != Role::other) {
-    if (const Chain* end = next_chain(character, chain, next)) return {first_joint(character, *end), {}};
+Tip find_tip(const Rig& rig, const skeleton::Character& character, const skeleton::Chain& chain, Index last) {
+  const skeleton::Role next = chain.role == skeleton::Role::arm   ? skeleton::Role::hand
+                              : chain.role == skeleton::Role::leg ? skeleton::Role::foot
+                                                                  : skeleton::Role::other;
+  if (next != skeleton::Role::other) {
+    if (const skeleton::Chain* end = next_chain(character, chain, next)) return {first_joint(character, *end), {}};
   }
   Vec3 sum;
   double found = 0;
   for (std::size_t j = 0; j < at(rig.count); ++j) {
-    if (rig.parents[j] != last || character.kinds[j] == JointKind::twist) continue;
+    if (rig.parents[j] != last || character.kinds[j] == skeleton::JointKind::twist) continue;
     sum = sum + rig.rest.place[j];
     found += 1;
   }
@@ -46,7 +50,7 @@ Tip find_tip(const Rig& rig, const Character& character, const Chain& chain, Ind
   const bool far = found > 0 && norm(offset) > no_length * rig.height;
   if (far) return {last, offset};
   const Vec3 end = rig.ends[at(last)];
-  const bool limb = chain.role == Role::arm || chain.role == Role::leg;
+  const bool limb = chain.role == skeleton::Role::arm || chain.role == skeleton::Role::leg;
   return limb && norm(end) > no_length * rig.height ? Tip{last, end} : Tip{};
 }
 
@@ -88,18 +92,18 @@ Index common_carrier(const Rig& rig, Index a, Index b) {
 
 }  // namespace
 
-Segments cut_chain(const Rig& rig, const Character& character, const Chain& chain, Memory& memory) {
+Segments cut_chain(const Rig& rig, const skeleton::Character& character, const skeleton::Chain& chain, Memory& memory) {
   Segments out(memory);
   for (std::uint32_t k = 0; k < chain.count; ++k)
     out.joints.push_back(static_cast<Index>(character.chain_joints[chain.first + k]));
   out.before = rig.carriers[at(out.joints[0])];
   out.tip = find_tip(rig, character, chain, out.joints.back());
-  if (chain.role == Role::leg && out.tip.joint < 0 && out.joints.size() > 2) {  // the last joint is the ankle
+  if (chain.role == skeleton::Role::leg && out.tip.joint < 0 && out.joints.size() > 2) {  // the last joint is the ankle
     out.tip = {out.joints.back(), {}};
     out.joints.pop_back();
   }
   out.starts.push_back(0);
-  if (chain.role == Role::arm || chain.role == Role::leg) {
+  if (chain.role == skeleton::Role::arm || chain.role == skeleton::Role::leg) {
     cut_limb(rig, out);
   } else {
     for (std::size_t k = 1; k < out.joints.size(); ++k) out.starts.push_back(static_cast<Index>(k));
@@ -107,14 +111,14 @@ Segments cut_chain(const Rig& rig, const Character& character, const Chain& chai
   return out;
 }
 
-void find_legs(Rig& rig, const Character& character, Memory& memory) {
+void find_legs(Rig& rig, const skeleton::Character& character, Memory& memory) {
   std::uint32_t most = 0;
-  for (const Chain& chain : character.chains) {
-    if (chain.role == Role::leg) most = std::max(most, chain.number + 1);
+  for (const skeleton::Chain& chain : character.chains) {
+    if (chain.role == skeleton::Role::leg) most = std::max(most, chain.number + 1);
   }
   for (std::uint32_t number = most; number-- > 0;) {
-    for (const Side side : {Side::left, Side::right, Side::middle}) {
-      const Chain* chain = find_chain(character, Role::leg, side, number);
+    for (const skeleton::Side side : {skeleton::Side::left, skeleton::Side::right, skeleton::Side::middle}) {
+      const skeleton::Chain* chain = find_chain(character, skeleton::Role::leg, side, number);
       if (!chain) continue;
       RigLeg leg(memory);
       leg.segments = cut_chain(rig, character, *chain, memory);
@@ -123,8 +127,8 @@ void find_legs(Rig& rig, const Character& character, Memory& memory) {
       leg.foot = leg.segments.tip.offset.x == 0 && leg.segments.tip.offset.y == 0 && leg.segments.tip.offset.z == 0
                      ? leg.segments.tip.joint
                      : -1;
-      const Chain* foot = next_chain(character, *chain, Role::foot);
-      const Chain* toe = foot ? next_chain(character, *foot, Role::toe) : nullptr;
+      const skeleton::Chain* foot = next_chain(character, *chain, skeleton::Role::foot);
+      const skeleton::Chain* toe = foot ? next_chain(character, *foot, skeleton::Role::toe) : nullptr;
       if (toe) leg.toe = first_joint(character, *toe);
       for (std::size_t s = 0; s < leg.segments.count(); ++s) {
         const Vec3 a = rig.rest.place[at(leg.segments.first(s))];
@@ -137,19 +141,20 @@ void find_legs(Rig& rig, const Character& character, Memory& memory) {
   }
 }
 
-void find_trunk(Rig& rig, const Character& character) {
-  const auto visit = [&](Role role, auto&& call) {
-    for (const Chain& chain : character.chains) {
+void find_trunk(Rig& rig, const skeleton::Character& character) {
+  const auto visit = [&](skeleton::Role role, auto&& call) {
+    for (const skeleton::Chain& chain : character.chains) {
       if (chain.role == role) call(first_joint(character, chain));
     }
   };
-  if (const Chain* head = find_chain(character, Role::head, Side::middle, 0)) rig.head = first_joint(character, *head);
+  if (const skeleton::Chain* head = find_chain(character, skeleton::Role::head, skeleton::Side::middle, 0))
+    rig.head = first_joint(character, *head);
   Index arms = -1;
-  for (const Role role : {Role::arm, Role::wing})
+  for (const skeleton::Role role : {skeleton::Role::arm, skeleton::Role::wing})
     visit(role, [&](Index j) { arms = arms < 0 ? j : common_carrier(rig, arms, j); });
   rig.mover = rig.head >= 0 ? rig.head : arms;
   if (arms >= 0 && rig.mover >= 0) rig.mover = common_carrier(rig, rig.mover, arms);
-  visit(Role::leg, [&](Index j) { rig.mover = rig.mover < 0 ? j : common_carrier(rig, rig.mover, j); });
+  visit(skeleton::Role::leg, [&](Index j) { rig.mover = rig.mover < 0 ? j : common_carrier(rig, rig.mover, j); });
   if ((rig.legs.empty() || rig.mover < 0) && !character.chains.empty())
     rig.mover = first_joint(character, character.chains[0]);
   if (rig.mover < 0) rig.mover = rig.order[0];
@@ -158,7 +163,7 @@ void find_trunk(Rig& rig, const Character& character) {
     const Vec3 from_mover = rig.rest.place[at(j)] - rig.rest.place[at(rig.mover)];
     const Vec3 way = rig.rest.place[at(rig.head >= 0 ? rig.head : arms)] - rig.rest.place[at(rig.mover)];
     const bool begins = rig.linked[at(j)] && dot(from_mover, unit_vector(way)) < no_length * rig.height;
-    (begins ? rig.second_rows : character.roles[at(j)] == Role::neck ? rig.neck : rig.trunk).push_back(j);
+    (begins ? rig.second_rows : character.roles[at(j)] == skeleton::Role::neck ? rig.neck : rig.trunk).push_back(j);
   }
   std::reverse(rig.trunk.begin(), rig.trunk.end());
   std::reverse(rig.neck.begin(), rig.neck.end());
@@ -172,4 +177,4 @@ void find_trunk(Rig& rig, const Character& character) {
   rig.upright = rig.legs.size() == 2 && rise > 0.6;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -4,7 +4,7 @@
 
 #include "retarget/rig.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 namespace {
 
 // Directions spread evenly over the sphere: a spiral whose steps turn by the golden angle.
@@ -15,12 +15,12 @@ Vec3 spread_direction(std::size_t k, std::size_t count) noexcept {
   return {r * cosine(angle), y, r * sine(angle)};
 }
 
-Vec3 vertex(const CharacterInput& in, std::size_t v) noexcept {
+Vec3 vertex(const skeleton::CharacterInput& in, std::size_t v) noexcept {
   return {in.positions[3 * v], in.positions[3 * v + 1], in.positions[3 * v + 2]};
 }
 
 // The heaviest joints of a vertex, heaviest first.
-SkinPoint influences_of(const CharacterInput& in, std::size_t v) noexcept {
+SkinPoint influences_of(const skeleton::CharacterInput& in, std::size_t v) noexcept {
   SkinPoint p;
   const auto add = [&](Index joint, double weight) {
     if (!(weight > 0) || !std::isfinite(weight)) return;
@@ -53,8 +53,8 @@ void fasten(SkinPoint& p, Vec3 place, const Stance& rest) noexcept {
 }
 
 template <class Takes>
-Vector<SkinPoint> outermost(const CharacterInput& in, const Stance& rest, std::size_t directions, Vec3 up, bool below,
-                            Takes takes, Memory& memory) {
+Vector<SkinPoint> outermost(const skeleton::CharacterInput& in, const Stance& rest, std::size_t directions, Vec3 up,
+                            bool below, Takes takes, Memory& memory) {
   Vector<std::uint32_t> taken(&memory), best(directions, HF_NO_INDEX, &memory);
   Vector<double> reach(directions, -1e300, &memory);
   Vector<Vec3> spread(&memory);
@@ -123,7 +123,7 @@ namespace {
 
 // Calls visit(joint, way) for each vertex: the joint that moves it most, and the way from that joint to the vertex.
 template <class Visit>
-void each_from_joint(const Rig& rig, const CharacterInput& in, Visit visit) {
+void each_from_joint(const Rig& rig, const skeleton::CharacterInput& in, Visit visit) {
   for (std::uint32_t v = 0; in.positions && v < in.vertex_count; ++v) {
     const Vec3 p = vertex(in, v);
     const Index j = influences_of(in, v).joints[0];
@@ -133,7 +133,7 @@ void each_from_joint(const Rig& rig, const CharacterInput& in, Visit visit) {
 
 // Returns how far forward of each joint its sole begins. The sole is the lowest vertices of the joint. 1e300: no
 // vertex.
-Vector<double> find_heels(const Rig& rig, const CharacterInput& in, Memory& memory) {
+Vector<double> find_heels(const Rig& rig, const skeleton::CharacterInput& in, Memory& memory) {
   Vector<double> lows(at(rig.count), 1e300, &memory), heels(at(rig.count), 1e300, &memory);
   each_from_joint(rig, in, [&](std::size_t j, Vec3 p) { lows[j] = std::min(lows[j], dot(p, rig.up)); });
   each_from_joint(rig, in, [&](std::size_t j, Vec3 p) {
@@ -157,8 +157,8 @@ void find_ends(Rig& rig, const RetargetSide& side, Memory& memory) {
   // The middle of a body is over its ankles, but the middle of a boot lies toward the toes. A leg without a foot ends
   // at the place of its sole that is nearest to the point under the hip.
   const Vector<double> heels = find_heels(rig, side.input, memory);
-  for (const Chain& chain : side.character.chains) {
-    if (chain.role != Role::leg) continue;
+  for (const skeleton::Chain& chain : side.character.chains) {
+    if (chain.role != skeleton::Role::leg) continue;
     const std::size_t hip = side.character.chain_joints[chain.first],
                       last = side.character.chain_joints[chain.first + chain.count - 1];
     const double ahead = dot(rig.ends[last], rig.forward),
@@ -176,4 +176,4 @@ Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const V
       side.input, rig.file_rest, part_directions, {}, false, [&](Index j, Vec3) { return part[at(j)] != 0; }, memory);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -7,10 +7,10 @@
 
 #include "retarget/retargeter.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 namespace {
 
-const char* name_of(const CharacterInput& input, Index joint) {
+const char* name_of(const skeleton::CharacterInput& input, Index joint) {
   const char* const name = input.names ? input.names[joint] : nullptr;
   return name ? name : "";
 }
@@ -60,7 +60,7 @@ void Retargeter::find_same(const RetargetSide& s, const RetargetSide& t) {
   for (std::size_t j = 0; j < at(target.count); ++j) {
     const Index i = same.partners[j];
     if (i < 0) {
-      if (t.character.kinds[j] == JointKind::body) return;
+      if (t.character.kinds[j] == skeleton::JointKind::body) return;
       continue;
     }
     if (target.parents[j] < 0) {
@@ -76,7 +76,7 @@ void Retargeter::find_same(const RetargetSide& s, const RetargetSide& t) {
     if (i >= 0) found[at(i)] = 1;
   }
   for (std::size_t i = 0; i < at(source.count); ++i) {
-    if (!found[i] && s.character.kinds[i] == JointKind::body) return;
+    if (!found[i] && s.character.kinds[i] == skeleton::JointKind::body) return;
   }
   if (root_joint < 0 || (sum_source > 0) != (sum_target > 0)) return;
   const double bones = sum_source > 0 ? sum_target / sum_source : 1;  // 0: every joint is a root
@@ -134,4 +134,4 @@ void Retargeter::copy_same(const double* poses, double* out) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 double lowest(const Rig& rig, const Vector<Vec3>& points) noexcept {
   double low = 1e300;
@@ -42,4 +42,4 @@ double slowest_step(const Rig& rig, const Vector<Vec3>& was, const Vector<Vec3>&
   return least;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

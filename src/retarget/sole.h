@@ -2,7 +2,7 @@
 #pragma once
 #include "retarget/rig.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 void read_sole(const RigLeg& leg, const Stance& stance, Vector<Vec3>& points) noexcept;
 // The lowest coordinate along up.
@@ -13,4 +13,4 @@ Vec3 sole_step(const Rig& rig, const Vector<Vec3>& was, const Vector<Vec3>& now,
 // low: points up to this above the lowest count.
 double slowest_step(const Rig& rig, const Vector<Vec3>& was, const Vector<Vec3>& now, Vec3 ground, double low) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

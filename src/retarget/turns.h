@@ -5,7 +5,7 @@
 #include "base/elementary.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::retarget {
 
 // A rotation as a unit quaternion.
 struct Turn {
@@ -100,4 +100,4 @@ inline Turn turn_of(const Linear& m) noexcept {
   return turn_of_frame(x, y, cross(x, y));
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::retarget

@@ -12,7 +12,7 @@
 #include "skeleton/constants.h"
 #include "skeleton/names.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 struct Box {
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
@@ -163,4 +163,4 @@ void find_forward(Body& body);                           // forward.cpp
 void assign_roles(Body& body);                           // roles.cpp
 void write_character(Body& body, Character& character);  // chains.cpp
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

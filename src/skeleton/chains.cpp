@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 const char* role_name(Role role) noexcept {
   static constexpr const char* names[] = {"other", "spine", "neck",   "head", "jaw",     "shoulder",
@@ -233,4 +233,4 @@ Character know_character(const CharacterInput& input, Memory& memory) {
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

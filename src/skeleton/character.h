@@ -19,7 +19,7 @@
 #include "base/memory.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 enum class Role : std::int32_t {
   other,
@@ -147,4 +147,4 @@ struct Character {
 
 Character know_character(const CharacterInput& input, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

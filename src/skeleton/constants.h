@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 // A word in more than this share of the names is a prefix or a suffix and says nothing (mixamorig, Bip01, _jnt).
 constexpr double common_word = 0.8;
@@ -40,4 +40,4 @@ constexpr double customary_up = 0.5;
 constexpr std::size_t skin_samples = 1000, skin_targets = 30000, plane_voters = 60, inside_tests = 64;
 constexpr std::uint32_t most_joints = 1u << 16;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -6,7 +6,7 @@
 #include "skeleton/body.h"
 #include "skeleton/legs.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 // One fact has one vote, from -1 (backward) to 1, whatever it is measured on.
@@ -277,4 +277,4 @@ void find_forward(Body& body) {
     limb.place = 0.5 * dot(body.pivots[at(limb.roots[0])] + body.pivots[at(limb.roots[1])], body.forward);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -4,7 +4,7 @@
 
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 bool is_solid(const Body& body, Index joint) {
@@ -126,4 +126,4 @@ void find_head(Body& body) {
   if (body.head >= 0) body.head = heaviest_above(body, body.head);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

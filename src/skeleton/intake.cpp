@@ -7,7 +7,7 @@
 #include "base/arguments.h"
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 void Box::add(Vec3 p) noexcept {
   low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -343,4 +343,4 @@ void read_vertices(Body& body) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -8,7 +8,7 @@
 #include "base/arguments.h"
 #include "skeleton/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 constexpr std::uint32_t most_influences = 64;  // as for weights to transfer
@@ -154,4 +154,4 @@ KnownSkeleton::KnownSkeleton(const hf_skeleton_desc& desc, const hf_skin_desc* s
   character = know_character(input, *memory);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -5,7 +5,7 @@
 #include "hf/skeleton.h"
 #include "skeleton/character.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 struct KnownSkeleton {
   // Throws Error as hf_skeleton_create says. skin: null if there is none.
@@ -25,4 +25,4 @@ struct KnownSkeleton {
   Character character;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

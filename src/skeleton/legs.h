@@ -2,7 +2,7 @@
 #pragma once
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 // Limbs that stand, else those with the name of legs.
 Vector<const Limb*> standing_limbs(const Body& body);
@@ -12,4 +12,4 @@ bool leads_out(const Body& body, const Limb& limb);
 // clear of the ground, else the first joint there. thigh: the place of the thigh.
 std::size_t ankle_of(const Body& body, const Vector<Index>& path, std::size_t thigh);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

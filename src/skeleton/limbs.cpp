@@ -4,7 +4,7 @@
 
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 // Finds the class that most joints of a limb have, or the class of its root if at least half as many have that one. A
@@ -254,4 +254,4 @@ void follow_limbs(Body& body) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

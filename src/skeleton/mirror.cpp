@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 double coordinate(Vec3 p, int axis) noexcept { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
@@ -155,4 +155,4 @@ Plane MirrorSearch::look(Vec3 left, bool with_skin, bool all) {
   return best;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -2,7 +2,7 @@
 #pragma once
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 struct Plane {
   Vec3 left;
@@ -38,4 +38,4 @@ class MirrorSearch {
   Vector<Vec3> cloud_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -7,7 +7,7 @@
 #include "skeleton/body.h"
 #include "skeleton/words.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 struct Text {
@@ -313,4 +313,4 @@ void read_names(Body& body) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 // The first class that one of the words of a name belongs to decides; digit before arm, and so on.
 enum class NameClass : std::uint8_t {
@@ -35,4 +35,4 @@ struct JointName {
   std::uint64_t key = 0;                                                        // the same for the names of a pair
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

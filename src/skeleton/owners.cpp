@@ -4,7 +4,7 @@
 
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 void list_owned(Body& body) {
@@ -159,4 +159,4 @@ void find_owners(Body& body) {
   name_kinds(body, below);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -5,7 +5,7 @@
 
 #include "skeleton/legs.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 double bone(const Body& body, const Vector<Index>& path, std::size_t k) {
@@ -105,4 +105,4 @@ void assign_arm(Body& body, const Limb& limb, int side) {
   set_from(body, path, hand + 1, path.size(), Role::finger);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -3,9 +3,9 @@
 #pragma once
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 void assign_leg(Body& body, const Limb& limb, int side);
 void assign_arm(Body& body, const Limb& limb, int side);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 using Touch = std::pair<Index, Index>;
@@ -313,4 +313,4 @@ void build_tree(Body& body) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

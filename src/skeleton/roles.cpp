@@ -7,7 +7,7 @@
 #include "skeleton/body.h"
 #include "skeleton/parts.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 // The third extent of a limb's vertices against the second: of a wing or a fin it is small.
@@ -336,4 +336,4 @@ void assign_roles(Body& body) {
   find_ground(body);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

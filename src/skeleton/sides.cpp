@@ -6,7 +6,7 @@
 #include "base/principal_axes.h"
 #include "skeleton/mirror.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 constexpr Vec3 coordinate_axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -392,4 +392,4 @@ void find_mirror(Body& body) {
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

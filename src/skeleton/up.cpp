@@ -4,7 +4,7 @@
 
 #include "skeleton/body.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 namespace {
 
 struct Extent {
@@ -167,4 +167,4 @@ void find_up(Body& body) {
   body.height = std::max(height.size(), 1e-12);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -4,7 +4,7 @@
 
 #include "skeleton/names.h"
 
-namespace hf_inner {
+namespace hf_inner::skeleton {
 
 enum class Part : std::uint8_t { none, collar, hand, foot, toe, lower, hip };
 
@@ -158,4 +158,4 @@ inline constexpr const char* right_words[] = {"r",       "right", "rt",      "rg
                                               "direito", "dir",   "derecha", "derecho", "rechts"};
 inline constexpr const char* not_words[] = {"armature", "armor", "armour"};
 
-}  // namespace hf_inner
+}  // namespace hf_inner::skeleton

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 std::size_t row_maximum(const double* row, std::size_t width) noexcept {
@@ -39,7 +39,7 @@ Mat3 checked_axes(const double (&rows)[9], const char* side) {
     axes(i, 1) = row[i].y;
     axes(i, 2) = row[i].z;
   }
-  return best_rotation(axes, Quaternion()).toRotationMatrix();
+  return deform::best_rotation(axes, deform::Quaternion()).toRotationMatrix();
 }
 
 double ground_height(const RestSide& side, double feet, double trunk) noexcept {
@@ -95,17 +95,19 @@ bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centr
   return true;
 }
 
-Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept {
+deform::Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept {
   const Vec3 a = (1 / norm(from)) * from, b = (1 / norm(to)) * to;
   const Vec3 c = cross(a, b);
   const double w = 1 + dot(a, b);
-  if (w > opposite) return normalised({c, w});
+  if (w > opposite) return deform::normalised({c, w});
   Vec3 turn = axis - dot(axis, a) * a;
   if (norm(turn) < opposite) turn = cross(a, std::abs(a.x) < steep_share ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
   turn = (1 / norm(turn)) * turn;
   return {turn, 0};
 }
 
-Quaternion power(const Quaternion& q, double w) noexcept { return exponential(w * logarithm(q)); }
+deform::Quaternion power(const deform::Quaternion& q, double w) noexcept {
+  return deform::exponential(w * deform::logarithm(q));
+}
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -17,11 +17,11 @@
 #include "mesh/mesh.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // The rest shape of one side (source or target), with the fields of its paired regions.
 struct RestSide {
-  const Mesh* mesh = nullptr;
+  const mesh::Mesh* mesh = nullptr;
   Span<const double> field;  // vertex count x pair count
   Span<const double> area;
   Mat3 axes;  // rows right, up, forward
@@ -48,9 +48,9 @@ bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centr
 
 // Returns the minimal rotation that turns the direction `from` to `to`. For opposite directions it turns about the axis
 // nearest to `axis`.
-Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept;
+deform::Quaternion minimal_rotation(Vec3 from, Vec3 to, Vec3 axis) noexcept;
 
 // Returns the rotation q^w, the part w of q. w: in [0, 1].
-Quaternion power(const Quaternion& q, double w) noexcept;
+deform::Quaternion power(const deform::Quaternion& q, double w) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -4,9 +4,9 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/core.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 struct SourceKernels;
 
@@ -42,7 +42,7 @@ class ClusterScheme {
   virtual void collect(std::int32_t cluster, std::int32_t cluster_count, std::int32_t field_count,
                        Span<const double> field, Span<const double> area, ClusterRows& out) const = 0;
   // Adds one cluster's slopes to the kernels of the source.
-  virtual void append(const KernelRow& row, const Core& core, SourceKernels& out) const = 0;
+  virtual void append(const KernelRow& row, const surface::Core& core, SourceKernels& out) const = 0;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

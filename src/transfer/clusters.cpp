@@ -10,7 +10,7 @@
 #include "base/progress.h"
 #include "base/unit_weights.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 double squared_distance(const double* a, const double* b, std::int32_t count) noexcept {
@@ -139,7 +139,7 @@ struct EdgeScratch {
 };
 
 // Adds one cluster's slopes (vectors g of clusters.h): all edges of the kernel's vertices, summed up at their two ends.
-void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, SourceKernels& out) {
+void append_edges(const KernelRow& row, const surface::Core& core, EdgeScratch& scratch, SourceKernels& out) {
   const std::size_t begin = out.slope.size();
   Vector<double>& kernel = scratch.kernel;
   for (std::size_t i = 0; i < row.vertex.size(); ++i) kernel[at(row.vertex[i])] = row.weight[i];
@@ -211,7 +211,7 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
 
 // Computes mass and centroid of every cluster on the target. Clusters without mass are dropped, and the others
 // renumbered.
-void measure_target(Span<const double> area, const Mesh& mesh, Clusters& out, Vector<std::int32_t>& kept,
+void measure_target(Span<const double> area, const mesh::Mesh& mesh, Clusters& out, Vector<std::int32_t>& kept,
                     Memory& memory) {
   Vector<double> mass(at(out.count), 0.0, &memory);
   Vector<Vec3> pivot(at(out.count), &memory);
@@ -268,8 +268,8 @@ void write_weights(ClusterWeight* candidates, std::int32_t count, std::int32_t* 
       });
 }
 
-Vector<double> area_shares(const Mesh& mesh, Memory& memory) {
-  Vector<double> area = vertex_areas(mesh, memory);
+Vector<double> area_shares(const mesh::Mesh& mesh, Memory& memory) {
+  Vector<double> area = mesh::vertex_areas(mesh, memory);
   double sum = 0;
   for (const double a : area) sum += a;
   const double floor = sum > 0 ? least_area_share * sum / static_cast<double>(area.size()) : 1.0;
@@ -283,8 +283,9 @@ Vector<double> area_shares(const Mesh& mesh, Memory& memory) {
 }
 
 Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field,
-                       Span<const double> source_area, const Core& source_core, Span<const double> target_field,
-                       Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs) {
+                       Span<const double> source_area, const surface::Core& source_core,
+                       Span<const double> target_field, Span<const double> target_area, const mesh::Mesh& target_mesh,
+                       Memory& memory, JobRunner& jobs) {
   Clusters out(memory);
   out.field_count = field_count;
   const std::size_t n = target_area.size();
@@ -372,4 +373,4 @@ SourceWeights weigh_source(const Clusters& clusters, double kernel_width, Span<c
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

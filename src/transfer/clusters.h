@@ -14,11 +14,11 @@
 
 #include "base/jobs.h"
 #include "base/span.h"
-#include "engine/core.h"
+#include "surface/core.h"
 #include "transfer/cluster_scheme.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 struct ClusterOptions {
   const ClusterScheme* scheme = nullptr;  // null: kernels around centres
@@ -62,11 +62,12 @@ struct Clusters {
 };
 
 // Returns the vertex areas of a mesh, scaled to sum 1. A floor gives every vertex some weight.
-Vector<double> area_shares(const Mesh& mesh, Memory& memory);
+Vector<double> area_shares(const mesh::Mesh& mesh, Memory& memory);
 
 Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, Span<const double> source_field,
-                       Span<const double> source_area, const Core& source_core, Span<const double> target_field,
-                       Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs);
+                       Span<const double> source_area, const surface::Core& source_core,
+                       Span<const double> target_field, Span<const double> target_area, const mesh::Mesh& target_mesh,
+                       Memory& memory, JobRunner& jobs);
 
 // The weights of the source's vertices in the same clusters, computed as on the target.
 struct SourceWeights {
@@ -85,4 +86,4 @@ struct ClusterWeight {
 };
 void write_weights(ClusterWeight* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -20,7 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 constexpr double degree = 3.14159265358979323846 / 180;
 // A height above every real one, in boxes: a search for the lowest height starts from it.
@@ -449,4 +449,4 @@ constexpr double hold_ridge = 1e-9;
 // Keeps the square root of a failed Cholesky pivot positive. Half and double move no vertex of five runs.
 constexpr double least_pivot = 1e-300;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -7,7 +7,7 @@
 #include "transfer/constants.h"
 #include "transfer/gradients.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 Vec3 Gradients::Place::of(const Vec3* points) const noexcept {
   Vec3 sum;
@@ -27,8 +27,8 @@ void Gradients::Place::add(std::int32_t v, double s) noexcept {
 }
 
 // Finds the pairs of places across openings that both surfaces have. A vertex at the far end of one starts no other.
-void Gradients::find_openings(const Core& source, const Core& target, const Border& from, const Border& to,
-                              Memory& memory) {
+void Gradients::find_openings(const surface::Core& source, const surface::Core& target, const Border& from,
+                              const Border& to, Memory& memory) {
   const Vector<std::uint8_t>& on_border = matches_.on_border;
   openings_.clear();
   Vector<Opening> lone(&memory);
@@ -95,14 +95,14 @@ void Gradients::find_openings(const Core& source, const Core& target, const Bord
 }
 
 // Factorises B A^-1 B' plus the give of each constraint; B has a row for each opening.
-void Gradients::factorise_openings(const Core& factor, Memory& memory) {
+void Gradients::factorise_openings(const surface::Core& factor, Memory& memory) {
   const std::size_t count = openings_.size();
   forces_.assign(4 * count, 0.0);
   if (count == 0) return;
   const Span<const std::int32_t> position = factor.factor->position();
   const std::size_t n = at(factor.unknown_count()), width = static_cast<std::size_t>(opening_channels);
   Buffer<double> matrix(memory, count * count);
-  Workspace z(factor.workspaces, width * n);
+  surface::Workspace z(factor.workspaces, width * n);
   for (std::size_t first = 0; first < count; first += width) {
     const std::size_t channels = std::min(width, count - first);
     std::fill(z.data(), z.data() + channels * n, 0.0);
@@ -136,7 +136,8 @@ Vec3 Gradients::opening_goal(Vec3 own, Vec3 still, Vec3 now, double scale, Vec3 
   if (!(from > least_gap && length > least_gap)) return own + scale * (now - still);
   if (to == 0) return {};
   const double closed = std::min(1.0, from / to);
-  return (closed * length / from) * rotate(minimal_rotation(still, own, axis), now) + (scale * (1 - closed)) * now;
+  return (closed * length / from) * deform::rotate(minimal_rotation(still, own, axis), now) +
+         (scale * (1 - closed)) * now;
 }
 
 // How far an opening's gap must change. `along` is the direction of the target's border at the far end. The gap across
@@ -165,7 +166,7 @@ Vec3 Gradients::opening_miss(const Opening& opening, const Frame& frame, const M
 
 void Gradients::hold_openings(const Frame& frame, double* z) {
   if (openings_.empty()) return;
-  const Core& factor = *frame.factor;
+  const surface::Core& factor = *frame.factor;
   const Span<const std::int32_t> position = factor.factor->position();
   const Mat3 axes = frame.axes.toRotationMatrix();
   const auto place = [&](const Place& ends) {
@@ -192,7 +193,7 @@ void Gradients::hold_openings(const Frame& frame, double* z) {
   }
   opening_factor_.solve(forces_.data());
   const std::size_t numbers = 3 * at(factor.unknown_count());
-  Workspace moved(factor.workspaces, numbers);
+  surface::Workspace moved(factor.workspaces, numbers);
   std::fill(moved.data(), moved.data() + numbers, 0.0);
   for (std::size_t i = 0; i < openings_.size(); ++i) {
     for (int side = 0; side < 2; ++side) {
@@ -206,4 +207,4 @@ void Gradients::hold_openings(const Frame& frame, double* z) {
   for (std::size_t i = 0; i < numbers; ++i) z[i] += moved[i];
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

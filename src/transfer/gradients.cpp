@@ -7,12 +7,12 @@
 #include "base/index.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 // Sums the triangles' normals at their corners. The length of each is the root of twice the area, so that it grows as
 // lengths do.
-void find_normals(const Mesh& mesh, const Vec3* points, Vector<Vec3>& out) {
+void find_normals(const mesh::Mesh& mesh, const Vec3* points, Vector<Vec3>& out) {
   std::fill(out.begin(), out.end(), Vec3());
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* c = mesh.triangle(t);
@@ -28,16 +28,16 @@ double normal_weight(double size, Vec3 normal) noexcept {
   return square > 0 ? 0.5 * size / square : 0.0;
 }
 
-double edge_weight(const Core& core, std::int32_t entry) noexcept {
+double edge_weight(const surface::Core& core, std::int32_t entry) noexcept {
   return std::clamp(core.weights()[at(core.topology().neighbour_edge[at(entry)])], flattest_weight, steepest_weight);
 }
 
 }  // namespace
 
-void Gradients::prepare(const MatchSide& source, const MatchSide& target, const Core& target_factor,
+void Gradients::prepare(const MatchSide& source, const MatchSide& target, const surface::Core& target_factor,
                         Span<const double> target_area, Memory& memory) {
   const std::size_t count = at(target.core->size());
-  const Mesh &from = source.core->mesh, &to = target.core->mesh;
+  const mesh::Mesh &from = source.core->mesh, &to = target.core->mesh;
   {
     const Border source_border(*source.core, memory), target_border(*target.core, memory);
     find_matches(source, target, source_border, target_border, memory, matches_);
@@ -56,10 +56,10 @@ void Gradients::prepare(const MatchSide& source, const MatchSide& target, const 
     for (std::int32_t e = source.core->topology().neighbour_start[v];
          e < source.core->topology().neighbour_start[v + 1]; ++e) {
       const Vec3 d = from.positions[v] - from.positions[at(source.core->topology().neighbour[at(e)])];
-      add_outer(moment, edge_weight(*source.core, e), d, d);
+      deform::add_outer(moment, edge_weight(*source.core, e), d, d);
     }
     const double size = moment.trace();
-    add_outer(moment, normal_weight(size, normal_[v]), normal_[v], normal_[v]);
+    deform::add_outer(moment, normal_weight(size, normal_[v]), normal_[v], normal_[v]);
     moment += (least_edge_moment * size) * Mat3::Identity();
     if (size > 0) inverse_[v] = moment.inverse();
   }
@@ -98,7 +98,7 @@ void Gradients::prepare(const MatchSide& source, const MatchSide& target, const 
 }
 
 void Gradients::find_gradients(const Frame& frame) {
-  const Core& source = *frame.source;
+  const surface::Core& source = *frame.source;
   find_normals(source.mesh, frame.posed, now_normal_);
   const Mat3 whole = frame.whole.rotation.toRotationMatrix(), axes = frame.axes.toRotationMatrix();
   const std::size_t n = gradient_.size();
@@ -110,10 +110,10 @@ void Gradients::find_gradients(const Frame& frame) {
         const std::size_t u = at(source.topology().neighbour[at(e)]);
         const Vec3 d = source.mesh.positions[v] - source.mesh.positions[u];
         const double w = edge_weight(source, e);
-        add_outer(moment, w, frame.posed[v] - frame.posed[u], d);
+        deform::add_outer(moment, w, frame.posed[v] - frame.posed[u], d);
         size += w * dot(d, d);
       }
-      add_outer(moment, normal_weight(size, normal_[v]), now_normal_[v], normal_[v]);
+      deform::add_outer(moment, normal_weight(size, normal_[v]), now_normal_[v], normal_[v]);
       moment += (least_edge_moment * size) * whole;
       const Mat3 gradient = size > 0 ? Mat3(moment * inverse_[v]) : whole;
       gradient_[v] = axes * gradient * axes.transpose();
@@ -123,7 +123,7 @@ void Gradients::find_gradients(const Frame& frame) {
 
 void Gradients::apply(const Frame& frame, Vec3* out) {
   find_gradients(frame);
-  const Core &source = *frame.source, &target = *frame.target, &factor = *frame.factor;
+  const surface::Core &source = *frame.source, &target = *frame.target, &factor = *frame.factor;
   const std::size_t count = blended_.size();
   const Mat3 axes = frame.axes.toRotationMatrix();
   const auto blocks = static_cast<std::uint32_t>((count + vertex_block - 1) / vertex_block);
@@ -152,7 +152,7 @@ void Gradients::apply(const Frame& frame, Vec3* out) {
   };
   const SymmetricMatrix& k = factor.matrix();
   const Span<const std::int32_t> position = factor.factor->position();
-  Workspace z(factor.workspaces, 3 * at(factor.unknown_count()));
+  surface::Workspace z(factor.workspaces, 3 * at(factor.unknown_count()));
   std::fill_n(z.data(), 3 * at(factor.unknown_count()), 0.0);
   each([&](std::size_t v) {
     Vec3 sum;
@@ -190,7 +190,7 @@ void Gradients::apply(const Frame& frame, Vec3* out) {
   for (std::size_t c = 0; c < mean.size(); ++c) {
     const Vec3 offset =
         centre_[c] - frame.target_centroid - frame.scale * (axes * (rest_mean_[c] - frame.whole.rest_centroid));
-    mean[c] = (1 / mass_[c]) * mean[c] + centroid + rotate(frame.turn, offset);
+    mean[c] = (1 / mass_[c]) * mean[c] + centroid + deform::rotate(frame.turn, offset);
   }
   each([&](std::size_t v) {
     const double* row = z.data() + 3 * at(position[v]);
@@ -198,4 +198,4 @@ void Gradients::apply(const Frame& frame, Vec3* out) {
   });
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -25,12 +25,12 @@
 // depend on threads.
 #pragma once
 #include "deform/dense.h"
-#include "engine/core.h"
+#include "surface/core.h"
 #include "transfer/matches.h"
 #include "transfer/openings.h"
 #include "transfer/source_rotations.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 class Gradients {
  public:
@@ -53,15 +53,15 @@ class Gradients {
         forces_(&memory) {}
 
   // target_factor: the core whose operator and factor place the target; target.core may hold another rest pose.
-  void prepare(const MatchSide& source, const MatchSide& target, const Core& target_factor,
+  void prepare(const MatchSide& source, const MatchSide& target, const surface::Core& target_factor,
                Span<const double> target_area, Memory& memory);
 
   // posed, out: inner vertices in inner units. turn: the rotation of the whole source, in the target's frame.
   struct Frame {
-    const Core *source, *target, *factor;
+    const surface::Core *source, *target, *factor;
     const Vec3* posed;
     WholeMotion whole;
-    Quaternion axes, turn;
+    deform::Quaternion axes, turn;
     double scale;
     Vec3 target_centroid;
     Span<const double> area;
@@ -85,8 +85,9 @@ class Gradients {
     std::int32_t like = -1;  // the source has no gap there: the opening closes as this one does
     Place edge[2];           // matches of the ends of the border edge at the target's far end
   };
-  void find_openings(const Core& source, const Core& target, const Border& from, const Border& to, Memory& memory);
-  void factorise_openings(const Core& factor, Memory& memory);
+  void find_openings(const surface::Core& source, const surface::Core& target, const Border& from, const Border& to,
+                     Memory& memory);
+  void factorise_openings(const surface::Core& factor, Memory& memory);
   Vec3 opening_goal(Vec3 own, Vec3 still, Vec3 now, double scale, Vec3 axis) const noexcept;
   Vec3 opening_miss(const Opening& opening, const Frame& frame, const Mat3& axes, Vec3 gap, Vec3 along,
                     double& open_share) const noexcept;
@@ -103,8 +104,8 @@ class Gradients {
   Vector<double> mass_;
   Vector<Opening> openings_;   // those with a gap on the source come first
   Vector<double> open_share_;  // by opening, of this frame
-  DenseFactor opening_factor_;
+  deform::DenseFactor opening_factor_;
   Vector<double> forces_;  // four by opening: the force that holds it, and padding
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -4,7 +4,7 @@
 
 #include "base/arguments.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 void read_transfer_options(const hf_transfer_desc& desc, TransferOptions& options) {
   options.mode = desc.mode;
@@ -30,7 +30,7 @@ Dials read_dials(const hf_transfer_dials& desc) {
   return out;
 }
 
-Vector<Vec3> read_rest(const hf_array& given, const Core& core, const char* name) {
+Vector<Vec3> read_rest(const hf_array& given, const surface::Core& core, const char* name) {
   Vector<Vec3> out(core.memory.get());
   const ConstRows rows = read_reals(given, 3, core.mesh.report.vertex_count, "vertices", name);
   if (!rows) return out;
@@ -42,15 +42,15 @@ Vector<Vec3> read_rest(const hf_array& given, const Core& core, const char* name
 }
 
 PairsInput read_pairs(const Transfer& transfer, const hf_pairs_desc& desc, Memory& memory) {
-  check_region_count(0, desc.pair_count, "pair");  // before lists of that length are read
+  deform::check_region_count(0, desc.pair_count, "pair");  // before lists of that length are read
   require(desc.source_counts, "source_counts");
   require(desc.source_vertices, "source_vertices");
   require(desc.target_counts, "target_counts");
   require(desc.target_vertices, "target_vertices");
-  PairsInput input(Regions(transfer.source().mesh, desc.pair_count, desc.source_counts, desc.source_vertices,
-                           "source_vertices", &memory),
-                   Regions(transfer.target().mesh, desc.pair_count, desc.target_counts, desc.target_vertices,
-                           "target_vertices", &memory),
+  PairsInput input(mesh::Regions(transfer.source().mesh, desc.pair_count, desc.source_counts, desc.source_vertices,
+                                 "source_vertices", &memory),
+                   mesh::Regions(transfer.target().mesh, desc.pair_count, desc.target_counts, desc.target_vertices,
+                                 "target_vertices", &memory),
                    memory);
   for (std::uint32_t p = 0; p < desc.pair_count; ++p)
     input.pairs.push_back({input.source[p], input.target[p], desc.flags ? desc.flags[p] : 0});
@@ -78,4 +78,4 @@ Span<const PairHold> read_holds(const hf_transfer_frame& frame, PairHold* room) 
   return {room, frame.hold_count};
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

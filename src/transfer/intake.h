@@ -3,21 +3,21 @@
 #include "mesh/vertex_lists.h"
 #include "transfer/transfer.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // Writes the options of a desc; others stay. The constructor of Transfer checks them.
 void read_transfer_options(const hf_transfer_desc& desc, TransferOptions& options);
 
 // Returns a rest pose by inner vertex; empty where none is given. name: of the array, for errors.
-Vector<Vec3> read_rest(const hf_array& given, const Core& core, const char* name);
+Vector<Vec3> read_rest(const hf_array& given, const surface::Core& core, const char* name);
 
 Dials read_dials(const hf_transfer_dials& desc);  // Transfer::set_dials checks them
 
 // Pairs and the regions that they refer to.
 struct PairsInput {
-  PairsInput(Regions&& from, Regions&& to, Memory& memory)
+  PairsInput(mesh::Regions&& from, mesh::Regions&& to, Memory& memory)
       : source(std::move(from)), target(std::move(to)), pairs(&memory) {}
-  Regions source, target;
+  mesh::Regions source, target;
   Vector<PairInput> pairs;
 };
 // Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_NULL_POINTER, HF_ERROR_OUT_OF_RANGE or HF_ERROR_INVALID_ARGUMENT
@@ -36,4 +36,4 @@ FrameRows read_rows(const hf_transfer_frame& frame, std::size_t source_vertices,
 // HF_ERROR_NULL_POINTER.
 Span<const PairHold> read_holds(const hf_transfer_frame& frame, PairHold* room);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -11,13 +11,13 @@
 #include "transfer/constants.h"
 #include "transfer/pair_fields.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 // The points sorted into the cells of a uniform grid. The grid spans their bounding box.
 class PointGrid {
  public:
-  PointGrid(const Core& core, Span<const std::uint8_t> reached)
+  PointGrid(const surface::Core& core, Span<const std::uint8_t> reached)
       : positions_(core.mesh.positions), start_(core.memory.get()), points_(core.memory.get()) {
     std::size_t count = 0;
     Vec3 low{no_height, no_height, no_height}, high = -1.0 * low;
@@ -106,7 +106,7 @@ struct Member {
   double distance = 0;
 };
 
-void relax(const Core& core, Span<const Member> free, std::int32_t channels, double* field) {
+void relax(const surface::Core& core, Span<const Member> free, std::int32_t channels, double* field) {
   const auto& topology = core.topology();
   const std::size_t width = at(channels);
   Vector<double> mean(width, 0.0, core.memory.get());
@@ -138,7 +138,7 @@ void relax(const Core& core, Span<const Member> free, std::int32_t channels, dou
 
 }  // namespace
 
-void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int32_t channels, double* field) {
+void attach_islands(const surface::Core& core, Span<const std::uint8_t> reached, std::int32_t channels, double* field) {
   Memory& memory = *core.memory;
   const std::size_t width = at(channels);
   const PointGrid grid(core, reached);
@@ -179,4 +179,4 @@ void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -8,17 +8,17 @@
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 // The turn q, of which a part of the share `follow` is taken. whole: from 0 to 1, from that part to q.
-Quaternion part_of(const Quaternion& q, double follow, double whole) noexcept {
-  const Vec3 turn = logarithm(q);
+deform::Quaternion part_of(const deform::Quaternion& q, double follow, double whole) noexcept {
+  const Vec3 turn = deform::logarithm(q);
   const double angle = norm(turn);
   if (!(angle > 0)) return q;
   const double less =
       follow >= 0.5 ? angle - (1 - follow) * sine(angle) : follow * (4.0 / 3 * sine(angle) - sine(2 * angle) / 6);
-  return exponential(((less + whole * (angle - less)) / angle) * turn);
+  return deform::exponential(((less + whole * (angle - less)) / angle) * turn);
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double
                      Span<const double> ends, double scale, Vec3 centre, Memory& memory) {
   const std::size_t count = limb.size();
   follow_.assign(count, 1.0);
-  own_.assign(count, Quaternion());
+  own_.assign(count, deform::Quaternion());
   bent_.assign(count, std::uint8_t{0});
   for (std::size_t c = 0; c < count; ++c) {
     const double wider = to.spread[c] / std::max(scale * from.spread[c], least_reach);
@@ -70,7 +70,7 @@ void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double
     if (!(limb[c] > 0)) before_[c] = -1;
 }
 
-void Levers::turn(const Quaternion& body, double whole, Quaternion* rotations) noexcept {
+void Levers::turn(const deform::Quaternion& body, double whole, deform::Quaternion* rotations) noexcept {
   if (whole == 1) return;
   std::copy_n(rotations, own_.size(), own_.begin());
   for (const std::int32_t i : order_) {
@@ -78,10 +78,10 @@ void Levers::turn(const Quaternion& body, double whole, Quaternion* rotations) n
     const bool hangs = before_[c] >= 0 && bent_[at(before_[c])];
     bent_[c] = hangs || follow_[c] < 1;
     if (!bent_[c]) continue;
-    const Quaternion before = before_[c] >= 0 ? own_[at(before_[c])] : body,
-                     now = before_[c] >= 0 ? rotations[before_[c]] : body;
-    rotations[c] = normalised(now * part_of(before.conjugate() * own_[c], follow_[c], whole));
+    const deform::Quaternion before = before_[c] >= 0 ? own_[at(before_[c])] : body,
+                             now = before_[c] >= 0 ? rotations[before_[c]] : body;
+    rotations[c] = deform::normalised(now * part_of(before.conjugate() * own_[c], follow_[c], whole));
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -22,7 +22,7 @@
 #include "transfer/clusters.h"
 #include "transfer/overlaps.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // A ratio of lengths, 1 up to `from` and itself from `to` on: clusters of bodies that are alike lie a little elsewhere.
 double counted_ratio(double ratio, double from, double to) noexcept;
@@ -42,7 +42,7 @@ class Levers {
 
   // Changes the rotations of the source's clusters. body: the rotation of the whole source, for clusters that overlap
   // no other. whole: 0, or how far turns are made in full; 1 changes no bit.
-  void turn(const Quaternion& body, double whole, Quaternion* rotations) noexcept;
+  void turn(const deform::Quaternion& body, double whole, deform::Quaternion* rotations) noexcept;
 
   double follow(std::size_t cluster) const noexcept { return follow_[cluster]; }  // w
 
@@ -50,8 +50,8 @@ class Levers {
   Vector<std::int32_t> order_;   // clusters, each after the one before it
   Vector<std::int32_t> before_;  // -1: none
   Vector<double> follow_;
-  Vector<Quaternion> own_;     // the rotations as they came
-  Vector<std::uint8_t> bent_;  // 1 where they changed
+  Vector<deform::Quaternion> own_;  // the rotations as they came
+  Vector<std::uint8_t> bent_;       // 1 where they changed
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -10,7 +10,7 @@
 #include "transfer/nearest_rows.h"
 #include "transfer/warp.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 // Places in the common frame: axes to axes, in lengths of the target.
@@ -21,7 +21,7 @@ Vector<Vec3> common_places(const MatchSide& side, Memory& memory) {
 }
 
 Vector<Vec3> common_normals(const MatchSide& side, Memory& memory) {
-  const Mesh& mesh = side.core->mesh;
+  const mesh::Mesh& mesh = side.core->mesh;
   Vector<Vec3> out(mesh.positions.size(), Vec3(), &memory);
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* c = mesh.triangle(t);
@@ -110,7 +110,7 @@ class Matcher {
         start_(rows_.size() / width_ + 1, 0, &memory),
         list_(source.core->mesh.corners.size(), 0, &memory),
         out_(out) {
-    const Mesh& mesh = source.core->mesh;
+    const mesh::Mesh& mesh = source.core->mesh;
     for (const std::int32_t v : mesh.corners) ++start_[at(v) + 1];
     for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
     Vector<std::int32_t> next(start_, &memory);
@@ -132,7 +132,7 @@ class Matcher {
   }
 
   void match_inside(std::size_t v, const double* row) const noexcept {
-    const Mesh& mesh = source_.core->mesh;
+    const mesh::Mesh& mesh = source_.core->mesh;
     const std::int32_t nearest = tree_.find(row);
     const double* base = rows_.data() + at(nearest) * width_;
     std::int32_t* corner = out_.corner.data() + 3 * v;
@@ -301,4 +301,4 @@ void find_matches(const MatchSide& source, const MatchSide& target, const Border
   });
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

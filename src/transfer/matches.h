@@ -7,14 +7,14 @@
 // matches itself exactly.
 #pragma once
 #include "deform/rotation.h"
-#include "engine/core.h"
+#include "surface/core.h"
 #include "transfer/openings.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // One surface: fields by vertex (width numbers each), and the means of the pairs' regions.
 struct MatchSide {
-  const Core* core = nullptr;
+  const surface::Core* core = nullptr;
   const double* field = nullptr;
   Span<const Vec3> means;
   Mat3 axes;        // rows right, up, forward
@@ -32,4 +32,4 @@ struct Matches {
 void find_matches(const MatchSide& source, const MatchSide& target, const Border& source_border,
                   const Border& target_border, Memory& memory, Matches& out);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -7,7 +7,7 @@
 #include "base/index.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 NearestRows::NearestRows(Span<const double> rows, std::size_t width, Memory& memory)
     : rows_(rows), width_(width), order_(&memory), nodes_(&memory) {
@@ -78,4 +78,4 @@ std::int32_t NearestRows::find(const double* row) const noexcept {
   return best;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

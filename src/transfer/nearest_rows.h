@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/span.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 class NearestRows {
  public:
@@ -31,4 +31,4 @@ class NearestRows {
   Vector<Node> nodes_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

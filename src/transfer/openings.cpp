@@ -8,9 +8,9 @@
 #include "base/index.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
-Border::Border(const Core& core, Memory& memory)
+Border::Border(const surface::Core& core, Memory& memory)
     : positions_(core.mesh.positions.data()),
       edges_(&memory),
       middle_(&memory),
@@ -18,7 +18,7 @@ Border::Border(const Core& core, Memory& memory)
       vertices_(&memory),
       start_(&memory),
       list_(&memory) {
-  const Topology& topology = core.topology();
+  const mesh::Topology& topology = core.topology();
   const Vec3* p = positions_;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::int32_t from = topology.edge_triangle_start[at(e)];
@@ -103,4 +103,4 @@ Border::Place Border::facing(Vec3 place, Vec3 outward, double reach) const noexc
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

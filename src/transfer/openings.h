@@ -8,9 +8,9 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/core.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 class Border {
  public:
@@ -20,7 +20,7 @@ class Border {
     double share = 0;
   };
 
-  Border(const Core& core, Memory& memory);
+  Border(const surface::Core& core, Memory& memory);
   std::size_t edge_count() const noexcept { return edges_.size(); }
   std::int32_t first(std::int32_t edge) const noexcept { return edges_[static_cast<std::size_t>(edge)].first; }
   std::int32_t second(std::int32_t edge) const noexcept { return edges_[static_cast<std::size_t>(edge)].second; }
@@ -51,4 +51,4 @@ class Border {
   double half_ = 0;  // the longest half edge
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

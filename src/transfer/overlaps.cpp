@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 Overlaps overlaps_of(std::size_t cluster_count, const WeightedSurface& side, Memory& memory) {
   Overlaps out(cluster_count, memory);
@@ -47,4 +47,4 @@ Overlaps overlaps_of(std::size_t cluster_count, const WeightedSurface& side, Mem
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

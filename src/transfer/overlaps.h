@@ -4,13 +4,13 @@
 #include <cstdint>
 
 #include "base/span.h"
-#include "engine/core.h"
+#include "surface/core.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // A surface whose vertices have weights in clusters.
 struct WeightedSurface {
-  const Core* core = nullptr;
+  const surface::Core* core = nullptr;
   Span<const double> area;
   const std::int32_t* joint = nullptr;  // blend_count for each vertex
   const float* weight = nullptr;
@@ -35,4 +35,4 @@ struct Overlaps {
 
 Overlaps overlaps_of(std::size_t cluster_count, const WeightedSurface& side, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -6,14 +6,14 @@
 #include "base/progress.h"
 #include "deform/rest.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 constexpr std::int32_t none = -1;
 }  // namespace
 
-PairFields::PairFields(std::shared_ptr<const Core> core)
+PairFields::PairFields(std::shared_ptr<const surface::Core> core)
     : core_(std::move(core)),
-      solver_(SiteSolver::make(core_)),
+      solver_(solve::SiteSolver::make(core_)),
       owner_(at(core_->size()), none, core_->memory.get()),
       regions_(core_->memory.get()) {}
 
@@ -50,25 +50,25 @@ void PairFields::add(Span<const std::uint32_t> numbers, Span<const Span<const st
   }
 
   owner_.swap(claimed);
-  const Handles before = listed();
+  const deform::Handles before = listed();
   for (std::size_t i = 0; i < regions.size(); ++i) {
     if (regions_.size() <= numbers[i]) regions_.resize(numbers[i] + 1);
-    regions_[numbers[i]] = make_region(*core_, regions[i], 0, memory);
+    regions_[numbers[i]] = deform::make_region(*core_, regions[i], 0, memory);
   }
-  set_handle_sites(*core_, *solver_, before, listed(), memory);
+  deform::set_handle_sites(*core_, *solver_, before, listed(), memory);
 }
 
 void PairFields::remove(Span<const std::uint32_t> numbers) {
-  const Handles before = listed();
+  const deform::Handles before = listed();
   for (const std::uint32_t number : numbers) {
     for (const std::int32_t v : regions_[number]->vertices) owner_[at(v)] = none;
     regions_[number].reset();
   }
-  set_handle_sites(*core_, *solver_, before, listed(), *core_->memory);
+  deform::set_handle_sites(*core_, *solver_, before, listed(), *core_->memory);
 }
 
-Handles PairFields::listed() const {
-  Handles handles(core_->memory.get());
+deform::Handles PairFields::listed() const {
+  deform::Handles handles(core_->memory.get());
   for (std::size_t number = 0; number < regions_.size(); ++number) {
     if (regions_[number]) handles.push_back({static_cast<std::uint32_t>(number), regions_[number]});
   }
@@ -77,12 +77,12 @@ Handles PairFields::listed() const {
 
 void PairFields::solve(Span<const std::uint32_t> numbers, double* field, double* leaks) const {
   Memory& memory = *core_->memory;
-  Handles handles(&memory);
+  deform::Handles handles(&memory);
   for (const std::uint32_t number : numbers) handles.push_back({number, regions_[number]});
-  const Reach reach(core_->mesh, handles, memory);
-  const HandleFields fields = solve_handle_fields(*core_, *solver_, handles, reach, memory);
+  const deform::Reach reach(core_->mesh, handles, memory);
+  const deform::HandleFields fields = deform::solve_handle_fields(*core_, *solver_, handles, reach, memory);
   const std::size_t count = numbers.size();
-  for_vertex_pieces(*core_->jobs, core_->size(), [&](std::int32_t first, std::int32_t last) {
+  deform::for_vertex_pieces(*core_->jobs, core_->size(), [&](std::int32_t first, std::int32_t last) {
     std::copy(fields.at(first), fields.at(last), field + count * at(first));
   });
   std::copy(fields.leak.begin(), fields.leak.end(), leaks);
@@ -95,4 +95,4 @@ void PairFields::solve(Span<const std::uint32_t> numbers, double* field, double*
   if (any_island) attach_islands(*core_, {reached.data(), reached.size()}, static_cast<std::int32_t>(count), field);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -17,11 +17,11 @@
 #include "base/span.h"
 #include "deform/handles.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 class PairFields {
  public:
-  explicit PairFields(std::shared_ptr<const Core> core);
+  explicit PairFields(std::shared_ptr<const surface::Core> core);
   PairFields(const PairFields& other);
   PairFields(PairFields&&) = default;
   PairFields& operator=(const PairFields&) = delete;
@@ -40,19 +40,19 @@ class PairFields {
 
   bool in_use(std::uint32_t number) const noexcept { return number < regions_.size() && regions_[number]; }
   Span<const std::int32_t> region(std::uint32_t number) const noexcept { return regions_[number]->vertices; }
-  EngineCounters counters() const noexcept { return solver_->counters(); }
+  solve::EngineCounters counters() const noexcept { return solver_->counters(); }
 
  private:
-  Handles listed() const;  // the regions by ascending number: the order of their sites
+  deform::Handles listed() const;  // the regions by ascending number: the order of their sites
 
-  std::shared_ptr<const Core> core_;
-  std::shared_ptr<SiteSolver> solver_;
-  Vector<std::int32_t> owner_;                           // per inner vertex: its pair, or -1
-  Vector<std::shared_ptr<const HandleRegion>> regions_;  // by pair number; null: number not in use
+  std::shared_ptr<const surface::Core> core_;
+  std::shared_ptr<solve::SiteSolver> solver_;
+  Vector<std::int32_t> owner_;                                   // per inner vertex: its pair, or -1
+  Vector<std::shared_ptr<const deform::HandleRegion>> regions_;  // by pair number; null: number not in use
 };
 
 // Fills the field values of vertices in components without a region (an eye, a strap). reached: by component, 1 if it
 // has a region. It is declared here so that its test can call it.
-void attach_islands(const Core& core, Span<const std::uint8_t> reached, std::int32_t channels, double* field);
+void attach_islands(const surface::Core& core, Span<const std::uint8_t> reached, std::int32_t channels, double* field);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

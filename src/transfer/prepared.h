@@ -8,7 +8,7 @@
 #include "transfer/levers.h"
 #include "transfer/transfer.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // A cluster's motion as the blend reads it: three matrix columns and the shift, each padded to four numbers.
 struct BlendColumns {
@@ -98,24 +98,24 @@ struct Transfer::Prepared {
   Buffer<double> source_field, target_field;
   // The next arrays have one entry per pair, in the order of numbers_.
   Vector<double> source_leak, target_leak, limb_angle, confidence;
-  Vector<Quaternion> limb_turn;     // turns the target's limb at rest to the source's direction
-  Vector<double> aligned;           // the share of that turn that the limb makes, 0 to 1
-  Vector<Quaternion> cluster_turn;  // the part of its limb's turn that a cluster makes
+  Vector<deform::Quaternion> limb_turn;     // turns the target's limb at rest to the source's direction
+  Vector<double> aligned;                   // the share of that turn that the limb makes, 0 to 1
+  Vector<deform::Quaternion> cluster_turn;  // the part of its limb's turn that a cluster makes
   // A limb that a dial turns: the share of each cluster in it, the cluster at its root, and the turn that takes its
   // rest direction to the source's.
   struct DialLimb {
     explicit DialLimb(Memory& memory) : share(&memory) {}
     Vector<double> share;
     std::int32_t root = -1;  // -1: no pair has the flag
-    Quaternion turn;
+    deform::Quaternion turn;
   };
-  DialLimb neck, tail, arms[2];     // arms: right and left, whose turn is one radian away from the body
-  Vector<Quaternion> dialled_turn;  // cluster_turn after the dials
-  Vector<double> stiff;             // per cluster: how far it keeps the rotation of its limb's root
-  Vector<Vec3> excess;              // per anchor: how far the dials move its goal in this frame
-  Vec3 body_excess;                 // and the whole body
-  double hip_height = 0;            // mean rest height of the trunk's anchors over the ground
-  double body_rise = 0;             // how far the dials raise them in this frame
+  DialLimb neck, tail, arms[2];             // arms: right and left, whose turn is one radian away from the body
+  Vector<deform::Quaternion> dialled_turn;  // cluster_turn after the dials
+  Vector<double> stiff;                     // per cluster: how far it keeps the rotation of its limb's root
+  Vector<Vec3> excess;                      // per anchor: how far the dials move its goal in this frame
+  Vec3 body_excess;                         // and the whole body
+  double hip_height = 0;                    // mean rest height of the trunk's anchors over the ground
+  double body_rise = 0;                     // how far the dials raise them in this frame
   Vector<Hold> dial_holds;
   Clusters clusters;
   SourceRotations source_rotations;
@@ -129,8 +129,8 @@ struct Transfer::Prepared {
   double source_ground = 0, target_ground = 0;
   Vec3 target_centroid;
   // The state of the last frame.
-  Vector<Vec3> posed;                   // source, inner units
-  Vector<Quaternion> given, rotations;  // rotations from the source, and after turning to fit neighbours
+  Vector<Vec3> posed;                           // source, inner units
+  Vector<deform::Quaternion> given, rotations;  // rotations from the source, and after turning to fit neighbours
   Vector<Mat3> matrices;
   Vector<Vec3> shifts, cluster_goals, goals;
   Vector<Anchor> loose;     // pairs whose target region does not follow the source's path
@@ -152,7 +152,7 @@ struct Transfer::Prepared {
   Vector<double> needs, forces;       // per vertex: how far it must rise, and the force that raises it
   Vector<double> block_needs;         // the largest need of some adjacent vertices
   Vector<double> hold_forces;         // per constraint of the frame: the force that keeps it in place
-  Vector<RigidMotion> rigid_motions;  // of rigid pieces in the last frame, in the caller's units
+  Vector<deform::RigidMotion> rigid_motions;  // of rigid pieces in the last frame, in the caller's units
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -8,8 +8,8 @@
 #include "transfer/constants.h"
 #include "transfer/soft_rotation.h"
 
-namespace hf_inner {
-void Refit::prepare(const Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory) {
+namespace hf_inner::transfer {
+void Refit::prepare(const mesh::Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory) {
   count_ = clusters.count;
   const std::size_t count = at(count_), width = at(clusters.field_count);
   Vector<double> mass(count * count, 0.0, &memory);
@@ -65,7 +65,7 @@ void Refit::take_pairs(Span<const Slack::Pair> pairs) {
   }
 }
 
-void Refit::turn(const Quaternion* given, const Vec3* slides, const Vec3* shifts, Quaternion* rotations,
+void Refit::turn(const deform::Quaternion* given, const Vec3* slides, const Vec3* shifts, deform::Quaternion* rotations,
                  const Mat3* matrices) const noexcept {
   for (std::size_t c = 0; c < at(count_); ++c) {
     if (!(spread_[c] > 0)) continue;
@@ -80,10 +80,10 @@ void Refit::turn(const Quaternion* given, const Vec3* slides, const Vec3* shifts
       if (pair_[at(i)] > 0) other = other + slides[pair_[at(i)] - 1];
       if (pair_[at(i)] < 0) other = other - slides[-pair_[at(i)] - 1];
       const Vec3 y = 0.5 * ((matrices[c] * x + shifts[c]) + other);
-      add_outer(moment, weight_[at(i)] / spread_[c], y - place, x - centroid_[c]);
+      deform::add_outer(moment, weight_[at(i)] / spread_[c], y - place, x - centroid_[c]);
     }
     rotations[c] = soft_rotation(moment + keep_rotation * given[c].toRotationMatrix(), given[c], refit_sharpness);
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -24,7 +24,7 @@
 #include "transfer/clusters.h"
 #include "transfer/slack.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 class Refit {
  public:
@@ -36,7 +36,7 @@ class Refit {
         point_(&memory),
         spread_(&memory),
         centroid_(&memory) {}
-  void prepare(const Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory);
+  void prepare(const mesh::Mesh& target, Span<const double> area, const Clusters& clusters, Memory& memory);
 
   // Tells which pair of overlapping clusters has which slide (slack.h).
   void take_pairs(Span<const Slack::Pair> pairs);
@@ -44,7 +44,7 @@ class Refit {
   // Runs one round of rotations. given: the rotations taken from the source. slides: one for each pair of take_pairs,
   // or null if it was not called. The array rotations: the present rotations, which it replaces. matrices: the present
   // rotations as matrices. shifts: the present translations.
-  void turn(const Quaternion* given, const Vec3* slides, const Vec3* shifts, Quaternion* rotations,
+  void turn(const deform::Quaternion* given, const Vec3* slides, const Vec3* shifts, deform::Quaternion* rotations,
             const Mat3* matrices) const noexcept;
 
  private:
@@ -58,4 +58,4 @@ class Refit {
   Vector<Vec3> centroid_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

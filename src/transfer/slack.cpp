@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 // 1 for equal numbers, less the more they differ. Both are above 0, or both below.
@@ -100,7 +100,8 @@ void Slack::prepare(const Side& source, const Overlaps& from, const Overlaps& to
   force_.assign(count, Vec3());
 }
 
-void Slack::measure(const Quaternion* rotations, const Vec3* posed, const Quaternion& axes, JobRunner& jobs) {
+void Slack::measure(const deform::Quaternion* rotations, const Vec3* posed, const deform::Quaternion& axes,
+                    JobRunner& jobs) {
   const std::size_t count = matrix_.size();
   for (std::size_t c = 0; c < count; ++c) matrix_[c] = rotations[c].toRotationMatrix();
   jobs.for_each(static_cast<std::uint32_t>(count), [&](std::uint32_t c) {
@@ -134,7 +135,7 @@ void Slack::measure(const Quaternion* rotations, const Vec3* posed, const Quater
     const auto carried = [&](Vec3 point) {
       const Vec3 slide = turned * point + apart;
       const double share = limit > 0 ? limit / std::sqrt(limit * limit + dot(slide, slide)) : 0.0;
-      return pair.factor * share * rotate(axes, slide);
+      return pair.factor * share * deform::rotate(axes, slide);
     };
     slide_[i] = carried(pair.overlap_point);
     const Vec3 force = pair.overlap_coupling * slide_[i] + pair.spread_coupling * carried(pair.spread_point);
@@ -143,4 +144,4 @@ void Slack::measure(const Quaternion* rotations, const Vec3* posed, const Quater
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

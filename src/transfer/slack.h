@@ -29,12 +29,12 @@
 #include "base/span.h"
 #include "deform/dense.h"
 #include "deform/rotation.h"
-#include "engine/core.h"
+#include "surface/core.h"
 #include "transfer/clusters.h"
 #include "transfer/overlaps.h"
 #include "transfer/translations.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 class Slack {
  public:
@@ -74,7 +74,7 @@ class Slack {
   void prepare_none(std::int32_t cluster_count) { force_.assign(static_cast<std::size_t>(cluster_count), Vec3()); }
 
   // Measures the slides of a frame. rotations: of the source's clusters, in the source's axes.
-  void measure(const Quaternion* rotations, const Vec3* posed, const Quaternion& axes, JobRunner& jobs);
+  void measure(const deform::Quaternion* rotations, const Vec3* posed, const deform::Quaternion& axes, JobRunner& jobs);
 
   Span<const Pair> pairs() const noexcept { return {pairs_.data(), pairs_.size()}; }
   // One for each pair: how far the first cluster shall lie from the second one in their overlap, in the target's axes.
@@ -90,7 +90,7 @@ class Slack {
   // By cluster: its source vertices, with area times weight.
   Vector<std::int32_t> start_, vertex_;
   Vector<double> weight_;
-  DenseFactor factor_;
+  deform::DenseFactor factor_;
   // By cluster: the overlapping clusters, the vectors sum_v a_v W_vc W_vd p_v, and the same sums without p_v.
   Vector<std::int32_t> table_start_, table_column_;
   Vector<Vec3> table_;
@@ -103,4 +103,4 @@ class Slack {
   Vector<double> scratch_;  // right-hand side and translations, four numbers for each cluster
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -6,9 +6,9 @@
 
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
-Quaternion soft_rotation(const Mat3& s, const Quaternion& guide, double sharpness) noexcept {
+deform::Quaternion soft_rotation(const Mat3& s, const deform::Quaternion& guide, double sharpness) noexcept {
   const double size = s.norm();
   if (!(size > 0) || !std::isfinite(size)) return guide;
   // Each step of the power stays positive definite, because no eigenvalue of N is larger than 2 |S|.
@@ -30,7 +30,7 @@ Quaternion soft_rotation(const Mat3& s, const Quaternion& guide, double sharpnes
     p = square;
   }
   const hf_eigen::Vector4d q = p * guide.coeffs();
-  return normalised(Quaternion(hf_eigen::Quaterniond(q)));
+  return deform::normalised(deform::Quaternion(hf_eigen::Quaterniond(q)));
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

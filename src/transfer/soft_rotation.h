@@ -10,9 +10,9 @@
 #pragma once
 #include "deform/rotation.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // sharpness: k. Non-finite input gives the guide.
-Quaternion soft_rotation(const Mat3& s, const Quaternion& guide, double sharpness) noexcept;
+deform::Quaternion soft_rotation(const Mat3& s, const deform::Quaternion& guide, double sharpness) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -10,7 +10,7 @@
 #include "transfer/constants.h"
 #include "transfer/soft_rotation.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 HF_VECTOR(Four, double, 4);
@@ -49,7 +49,7 @@ Mat3 moment_of(const SourceKernels& kernels, std::int32_t c, const Vec3* posed) 
 
 }  // namespace
 
-void SourceRotations::prepare(const Mesh& mesh, Span<const double> area) {
+void SourceRotations::prepare(const mesh::Mesh& mesh, Span<const double> area) {
   const std::size_t count = std::min(area.size(), most_sampled);
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -68,7 +68,7 @@ void SourceRotations::prepare(const Mesh& mesh, Span<const double> area) {
   }
 }
 
-WholeMotion SourceRotations::whole(const Mesh& mesh, Span<const double> area, const Vec3* posed) const noexcept {
+WholeMotion SourceRotations::whole(const mesh::Mesh& mesh, Span<const double> area, const Vec3* posed) const noexcept {
   WholeMotion out;
   for (std::size_t v = 0; v < area.size(); ++v) {
     out.rest_centroid = out.rest_centroid + area[v] * mesh.positions[v];
@@ -76,10 +76,10 @@ WholeMotion SourceRotations::whole(const Mesh& mesh, Span<const double> area, co
   }
   Mat3 moment;
   for (std::size_t i = 0; i < sample_.size(); ++i) {
-    add_outer(moment, sample_weight_[i], posed[sample_[i]] - out.centroid,
-              mesh.positions[at(sample_[i])] - sample_centroid_);
+    deform::add_outer(moment, sample_weight_[i], posed[sample_[i]] - out.centroid,
+                      mesh.positions[at(sample_[i])] - sample_centroid_);
   }
-  if (sample_spread_ > 0) out.rotation = best_rotation((1 / sample_spread_) * moment, Quaternion());
+  if (sample_spread_ > 0) out.rotation = deform::best_rotation((1 / sample_spread_) * moment, deform::Quaternion());
   const Mat3 rotation = out.rotation.toRotationMatrix();
   double sum = 0;
   for (std::size_t i = 0; i < sample_.size(); ++i) {
@@ -90,15 +90,15 @@ WholeMotion SourceRotations::whole(const Mesh& mesh, Span<const double> area, co
   return out;
 }
 
-void SourceRotations::clusters(const Clusters& clusters, const Vec3* posed, const Quaternion& whole, Quaternion* out,
-                               JobRunner& jobs) const {
+void SourceRotations::clusters(const Clusters& clusters, const Vec3* posed, const deform::Quaternion& whole,
+                               deform::Quaternion* out, JobRunner& jobs) const {
   jobs.for_each(static_cast<std::uint32_t>(clusters.count), [&](std::uint32_t i) {
     const auto c = static_cast<std::int32_t>(i);
     const Mat3 around = moment_of(clusters.broad, c, posed) + broad_prior * whole.toRotationMatrix();
-    const Quaternion broad = best_rotation_from(around, whole);
+    const deform::Quaternion broad = deform::best_rotation_from(around, whole);
     const Mat3 own = moment_of(clusters.narrow, c, posed) + narrow_prior * broad.toRotationMatrix();
     out[i] = soft_rotation(own, broad, narrow_sharpness);
   });
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -13,11 +13,11 @@
 #include "deform/rotation.h"
 #include "transfer/clusters.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // The motion of the whole source: its rotation, its area centroids, and how far the frame is from a rigid motion.
 struct WholeMotion {
-  Quaternion rotation;
+  deform::Quaternion rotation;
   Vec3 rest_centroid, centroid;
   double residual = 0;  // root mean square of q - (R (p - rest_centroid) + centroid)
 };
@@ -25,11 +25,11 @@ struct WholeMotion {
 class SourceRotations {
  public:
   explicit SourceRotations(Memory& memory) : sample_(&memory), sample_weight_(&memory) {}
-  void prepare(const Mesh& mesh, Span<const double> area);
+  void prepare(const mesh::Mesh& mesh, Span<const double> area);
 
   // posed: inner coordinates of the source.
-  WholeMotion whole(const Mesh& mesh, Span<const double> area, const Vec3* posed) const noexcept;
-  void clusters(const Clusters& clusters, const Vec3* posed, const Quaternion& whole, Quaternion* out,
+  WholeMotion whole(const mesh::Mesh& mesh, Span<const double> area, const Vec3* posed) const noexcept;
+  void clusters(const Clusters& clusters, const Vec3* posed, const deform::Quaternion& whole, deform::Quaternion* out,
                 JobRunner& jobs) const;
 
  private:
@@ -39,4 +39,4 @@ class SourceRotations {
   double sample_spread_ = 0;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -8,22 +8,22 @@
 #include "mesh/skin_shape.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
-Vector<std::uint8_t> thin_vertices(const Geometry& geometry, Memory& memory, JobRunner& jobs) {
-  const Mesh& mesh = geometry.mesh;
+Vector<std::uint8_t> thin_vertices(const surface::Geometry& geometry, Memory& memory, JobRunner& jobs) {
+  const mesh::Mesh& mesh = geometry.mesh;
   const std::size_t n = mesh.positions.size();
-  const SkinShape shape(mesh, memory);
+  const mesh::SkinShape shape(mesh, memory);
   Vector<std::uint8_t> shallow(n, std::uint8_t{0}, &memory);
   for_ranges(jobs, n, owner_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Vec3 through = mesh.positions[v] - thin_width * shape.normals()[v];
-      shallow[v] = shape.crosses(mesh.positions[v], through, mesh.component[v], Mesh::none, true);
+      shallow[v] = shape.crosses(mesh.positions[v], through, mesh.component[v], mesh::Mesh::none, true);
     }
   });
   // The normals of a rim point along the sheet: there a neighbour tells.
   Vector<std::uint8_t> out(shallow, &memory);
-  const Topology& topology = geometry.topology();
+  const mesh::Topology& topology = geometry.topology();
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::size_t a = at(topology.first(e)), b = at(topology.second(e));
     out[a] |= shallow[b];
@@ -32,9 +32,10 @@ Vector<std::uint8_t> thin_vertices(const Geometry& geometry, Memory& memory, Job
   return out;
 }
 
-Vector<std::uint8_t> idle_vertices(const Geometry& geometry, const double* field, std::size_t width, Memory& memory) {
-  const Mesh& mesh = geometry.mesh;
-  const Topology& topology = geometry.topology();
+Vector<std::uint8_t> idle_vertices(const surface::Geometry& geometry, const double* field, std::size_t width,
+                                   Memory& memory) {
+  const mesh::Mesh& mesh = geometry.mesh;
+  const mesh::Topology& topology = geometry.topology();
   Vector<std::uint8_t> out(mesh.positions.size(), std::uint8_t{1}, &memory);
   Poller poller;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
@@ -49,4 +50,4 @@ Vector<std::uint8_t> idle_vertices(const Geometry& geometry, const double* field
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

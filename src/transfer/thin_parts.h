@@ -9,14 +9,15 @@
 
 #include "base/jobs.h"
 #include "base/span.h"
-#include "engine/geometry.h"
+#include "surface/geometry.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // By vertex: 1 if the surface is thin there. geometry: without links.
-Vector<std::uint8_t> thin_vertices(const Geometry& geometry, Memory& memory, JobRunner& jobs);
+Vector<std::uint8_t> thin_vertices(const surface::Geometry& geometry, Memory& memory, JobRunner& jobs);
 
 // By vertex: 1 if no field changes there, along no edge. field: `width` values for each vertex.
-Vector<std::uint8_t> idle_vertices(const Geometry& geometry, const double* field, std::size_t width, Memory& memory);
+Vector<std::uint8_t> idle_vertices(const surface::Geometry& geometry, const double* field, std::size_t width,
+                                   Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -13,13 +13,13 @@
 #include "transfer/prepared.h"
 #include "transfer/thin_parts.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 constexpr std::uint32_t known_flags = HF_PAIR_ANCHOR | HF_PAIR_FOOT | HF_PAIR_TRUNK | HF_PAIR_NO_ALIGNMENT |
                                       HF_PAIR_CONTACT | HF_PAIR_SINKS | HF_PAIR_NECK | HF_PAIR_TAIL | HF_PAIR_ARM;
 
-Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
+Vec3 area_mean(const mesh::Mesh& mesh, const Vector<double>& area) noexcept {
   Vec3 sum;
   for (std::size_t v = 0; v < area.size(); ++v) sum = sum + area[v] * mesh.positions[v];
   return sum;
@@ -49,10 +49,10 @@ void check_options(const TransferOptions& options) {
 }
 
 // A core whose rest positions are others. Fields, and all that follows from edges, still come from the surface as made.
-std::shared_ptr<const Core> with_rest(const std::shared_ptr<const Core>& core, Span<const Vec3> rest,
-                                      const char* side) {
+std::shared_ptr<const surface::Core> with_rest(const std::shared_ptr<const surface::Core>& core, Span<const Vec3> rest,
+                                               const char* side) {
   if (rest.empty()) return core;
-  const Geometry& from = *core->geometry;
+  const surface::Geometry& from = *core->geometry;
   Vector<Vec3> positions(rest.size(), core->memory.get());
   for (std::size_t v = 0; v < rest.size(); ++v) {
     if (!is_finite(rest[v])) {
@@ -60,18 +60,18 @@ std::shared_ptr<const Core> with_rest(const std::shared_ptr<const Core>& core, S
       fail(HF_ERROR_NON_FINITE, given, "vertex %u of the %s's rest pose is not finite", given, side);
     }
     positions[v] = from.mesh.to_inner(rest[v]);
-    if (is_too_far(positions[v])) {
-      const std::uint32_t given = given_vertex(from.mesh, static_cast<std::int32_t>(v));
+    if (mesh::is_too_far(positions[v])) {
+      const std::uint32_t given = mesh::given_vertex(from.mesh, static_cast<std::int32_t>(v));
       fail(HF_ERROR_TOO_LARGE, given, "vertex %u of the %s's rest pose is more than %g box diagonals from the surface",
-           given, side, farthest_pose);
+           given, side, mesh::farthest_pose);
     }
   }
-  return make_shared_in<Core>(*core->memory, Geometry::moved(from, positions));
+  return make_shared_in<surface::Core>(*core->memory, surface::Geometry::moved(from, positions));
 }
 
 }  // namespace
 
-Transfer::Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target,
+Transfer::Transfer(std::shared_ptr<const surface::Core> source, std::shared_ptr<const surface::Core> target,
                    const TransferOptions& options)
     : source_core_(with_rest(source, options.source_rest, "source")),
       target_core_(with_rest(target, options.target_rest, "target")),
@@ -96,7 +96,7 @@ Transfer::~Transfer() = default;
 
 void Transfer::add_pairs(Span<const PairInput> pairs, std::uint32_t* out_pairs, bool prepare_now) {
   Memory& memory = *target_core_->memory;
-  check_region_count(numbers_.size(), pairs.size(), "pair");
+  deform::check_region_count(numbers_.size(), pairs.size(), "pair");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].flags & ~known_flags)
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
@@ -169,7 +169,7 @@ void Transfer::prepare_alignment(Prepared& p) const {
       &target_core_->mesh, {p.target_field.data(), p.target_field.size()}, target_area_, target_axes_};
   p.limb_angle.assign(width, -1.0);
   p.aligned.assign(width, 0.0);
-  p.limb_turn.assign(width, Quaternion());
+  p.limb_turn.assign(width, deform::Quaternion());
   Vector<std::int32_t> feet(target_core_->memory.get());
   for (std::size_t h = 0; h < width; ++h) {
     const std::uint32_t number = numbers_[h], flags = flags_[number];
@@ -182,10 +182,10 @@ void Transfer::prepare_alignment(Prepared& p) const {
         limb_direction(source, column, region_mean(source_.region(number), source.mesh->positions.data()), to) &&
         limb_direction(target, column, region_mean(target_.region(number), target.mesh->positions.data()), from);
     if (!known || norm(from) < shortest_limb || norm(to) < shortest_limb) continue;
-    to = rotate(axes_, to);
+    to = deform::rotate(axes_, to);
     const Vec3 right{target_axes_(0, 0), target_axes_(0, 1), target_axes_(0, 2)};
     p.limb_turn[h] = minimal_rotation(from, to, right);
-    p.limb_angle[h] = angle_between(p.limb_turn[h], Quaternion());
+    p.limb_angle[h] = deform::angle_between(p.limb_turn[h], deform::Quaternion());
     if (has_kernels() && options_.alignment_angle > 0 && !(flags & HF_PAIR_NO_ALIGNMENT))
       p.aligned[h] =
           smooth_step(align_from * options_.alignment_angle, align_to * options_.alignment_angle, p.limb_angle[h]);
@@ -193,7 +193,7 @@ void Transfer::prepare_alignment(Prepared& p) const {
 
   p.confidence.assign(width, 0.0);
   Vector<double> owned(width, 0.0, target_core_->memory.get());
-  p.cluster_turn.assign(at(p.clusters.count), Quaternion());
+  p.cluster_turn.assign(at(p.clusters.count), deform::Quaternion());
   for (std::int32_t c = 0; c < p.clusters.count; ++c) {
     const double* centre = p.clusters.centre.data() + at(c) * width;
     const auto h = static_cast<std::size_t>(std::max_element(centre, centre + width) - centre);
@@ -274,7 +274,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
 // such as fingers, but what a hand holds does.
 void Transfer::find_sinking(Prepared& p) {
   const std::size_t width = numbers_.size(), n = at(target_core_->size());
-  const Geometry& geometry = target_factor_->geometry->unlinked();
+  const surface::Geometry& geometry = target_factor_->geometry->unlinked();
   Memory& memory = *target_core_->memory;
   if (thin_.empty()) thin_ = thin_vertices(geometry, memory, *target_core_->jobs);
   const Vector<std::uint8_t> idle = idle_vertices(geometry, p.target_field.data(), width, memory);
@@ -298,7 +298,7 @@ void Transfer::find_sinking(Prepared& p) {
 // Finds the cluster of each source vertex, and the lowest rest height of each cluster.
 void Transfer::prepare_ground(Prepared& p) const {
   const std::size_t width = numbers_.size(), count = at(p.clusters.count);
-  const Mesh& mesh = source_core_->mesh;
+  const mesh::Mesh& mesh = source_core_->mesh;
   p.source_owner.assign(mesh.positions.size(), 0);
   p.rest_lows.assign(count, no_height);
   p.source_lows.assign(count, 0.0);
@@ -428,8 +428,8 @@ Transfer::Prepared& Transfer::prepare() {
   // The frame before the first one is the rest shape.
   const std::size_t count = at(p.clusters.count);
   p.posed.resize(at(source_core_->size()));
-  p.given.assign(count, Quaternion());
-  p.rotations.assign(count, Quaternion());
+  p.given.assign(count, deform::Quaternion());
+  p.rotations.assign(count, deform::Quaternion());
   p.matrices.assign(count, Mat3::Identity());
   p.columns.assign(count, BlendColumns());
   p.blended.resize(at(target_core_->size()));
@@ -445,7 +445,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.shifts.assign(count, Vec3());
   p.cluster_goals.assign(count, Vec3());
   p.goals.assign(p.anchors.size(), Vec3());
-  p.rigid_motions.assign(rigid_ ? rigid_->count() : 0, RigidMotion());
+  p.rigid_motions.assign(rigid_ ? rigid_->count() : 0, deform::RigidMotion());
   prepared_ = std::move(fresh);
   return p;
 }
@@ -469,7 +469,7 @@ PairInfo Transfer::pair_info(std::uint32_t pair) {
 // Tells whether the two regions of a pair are on different sides: left on the source and right on the target, or the
 // reverse.
 bool Transfer::is_crossed(std::uint32_t number) const {
-  const auto side = [](const Core& core, const Mat3& axes, Span<const std::int32_t> region,
+  const auto side = [](const surface::Core& core, const Mat3& axes, Span<const std::int32_t> region,
                        const Vector<double>& area) {
     return dot(Vec3{axes(0, 0), axes(0, 1), axes(0, 2)},
                region_mean(region, core.mesh.positions.data()) - area_mean(core.mesh, area));
@@ -488,4 +488,4 @@ const std::uint8_t* Transfer::sinking() {
   return p.sinks.empty() ? nullptr : p.sinks.data();
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -33,7 +33,7 @@
 #include "transfer/source_rotations.h"
 #include "transfer/translations.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 struct TransferOptions {
   std::int32_t mode = HF_TRANSFER_FIELDS;
@@ -79,7 +79,8 @@ class Transfer {
  public:
   // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE for bad options (index: the caller's
   // vertex of a rest pose).
-  Transfer(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target, const TransferOptions& options);
+  Transfer(std::shared_ptr<const surface::Core> source, std::shared_ptr<const surface::Core> target,
+           const TransferOptions& options);
   ~Transfer();
   Transfer(const Transfer&) = delete;
   Transfer& operator=(const Transfer&) = delete;
@@ -116,19 +117,19 @@ class Transfer {
   std::size_t joint_count();
   // Writes each joint's rest centroid, rotation and posed centroid, in the caller's units. Each array is null or
   // joint_count() long.
-  void skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places);
+  void skin_motion(Vec3* pivots, deform::Quaternion* rotations, Vec3* places);
   // By inner vertex of the target: 1 if it may sink into the ground. NULL: there is no ground.
   const std::uint8_t* sinking();
   // Writes the joints and weights of an inner vertex of the target, by falling weight, with sum exactly 1.
   // influence_count: 4 or 8, the length of both arrays.
   void skin_weights(std::int32_t vertex, std::uint32_t influence_count, std::uint32_t* joints, float* weights);
 
-  const Core& source() const noexcept { return *source_core_; }
-  const Core& target() const noexcept { return *target_core_; }
+  const surface::Core& source() const noexcept { return *source_core_; }
+  const surface::Core& target() const noexcept { return *target_core_; }
   bool scale_found() const noexcept { return options_.scale == 0; }
   double scale();  // target lengths over source lengths as used, given units
-  EngineCounters source_counters() const noexcept { return source_.counters(); }
-  EngineCounters target_counters() const noexcept { return target_.counters(); }
+  solve::EngineCounters source_counters() const noexcept { return source_.counters(); }
+  solve::EngineCounters target_counters() const noexcept { return target_.counters(); }
 
  private:
   struct Prepared;
@@ -148,7 +149,7 @@ class Transfer {
   void stiffen(Prepared& p) const noexcept;
   void move_paths(Prepared& p) const;
   bool is_crossed(std::uint32_t number) const;
-  void place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const;
+  void place_anchors(Prepared& p, const WholeMotion& whole, const deform::Quaternion& turn) const;
   void read_holds(Prepared& p, Span<const PairHold> holds) const;
   void hold_regions(Prepared& p, double rigid, double share) const;
   void settle(Prepared& p, Vec3 centroid) const;  // finds translations for the present rotations and goals
@@ -156,24 +157,24 @@ class Transfer {
   void blend(Prepared& p) const;
   double lying_share(Prepared& p) const noexcept;
   void lie_down(Prepared& p, Vec3 centroid, double lies, double rigid, double share) const;
-  void keep_above_ground(Prepared& p, const Quaternion& turn, Vec3 centroid, double rigid) const;
+  void keep_above_ground(Prepared& p, const deform::Quaternion& turn, Vec3 centroid, double rigid) const;
   void make_rigid(Prepared& p, Vec3* out) noexcept;
   bool raise_sunk(Prepared& p, Vec3 up, double allowed, double share) const;
 
   // With rest poses of the caller, these hold their positions and no factor; the fields have the cores as made.
-  std::shared_ptr<const Core> source_core_, target_core_, target_factor_;
+  std::shared_ptr<const surface::Core> source_core_, target_core_, target_factor_;
   TransferOptions options_;
   Dials dials_;
   Mat3 source_axes_, target_axes_;
-  Quaternion axes_;  // A: takes the source's axes to the target's
+  deform::Quaternion axes_;  // A: takes the source's axes to the target's
   PairFields source_, target_;
   Vector<std::uint32_t> numbers_;  // numbers of pairs in use, ascending: order of the fields
   Vector<std::uint32_t> flags_;    // HF_PAIR_*, by pair number
   Vector<double> source_area_, target_area_;
   Vector<std::uint8_t> thin_;  // by inner vertex of the target (thin_parts.h); empty until the first pairs are prepared
-  std::shared_ptr<const RigidPieces> rigid_;  // null: none
+  std::shared_ptr<const deform::RigidPieces> rigid_;  // null: none
   Buffer<Vec3> rigid_scratch_;
   std::shared_ptr<Prepared> prepared_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

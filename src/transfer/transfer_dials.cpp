@@ -19,7 +19,7 @@
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 void check_dial(double value, double least, double most, const char* name) {
@@ -83,7 +83,7 @@ void Transfer::prepare_dials(Prepared& p) const {
       ends[1] = ends[1] + region_mean(target_.region(numbers_[h]), target_core_->mesh.positions.data());
     }
     share_clusters(limb);
-    limb.turn = Quaternion();
+    limb.turn = deform::Quaternion();
     if (columns.empty()) continue;
     Vector<double> source_sum(source_area_.size(), 0.0, &memory), target_sum(target_area_.size(), 0.0, &memory);
     add_columns(p.source_field, width, columns, source_sum);
@@ -95,7 +95,7 @@ void Transfer::prepare_dials(Prepared& p) const {
     if (limb_direction(source, 0, part * ends[0], to, root_window) &&
         limb_direction(target, 0, part * ends[1], from, root_window) && norm(from) >= shortest_limb &&
         norm(to) >= shortest_limb)
-      limb.turn = minimal_rotation(from, rotate(axes_, to), right);
+      limb.turn = minimal_rotation(from, deform::rotate(axes_, to), right);
   }
   for (int side = 0; side < 2; ++side) {
     const Vec3 outward = (side == 0 ? 1.0 : -1.0) * right;
@@ -106,7 +106,7 @@ void Transfer::prepare_dials(Prepared& p) const {
       if ((flags_[numbers_[h]] & HF_PAIR_ARM) && (place > 0 || (place == 0 && side == 0))) columns.push_back(h);
     }
     share_clusters(p.arms[side]);
-    p.arms[side].turn = exponential(cross(-1.0 * up, outward));
+    p.arms[side].turn = deform::exponential(cross(-1.0 * up, outward));
   }
 
   double height = 0, trunks = 0;
@@ -116,7 +116,7 @@ void Transfer::prepare_dials(Prepared& p) const {
       trunks += 1;
     }
   p.hip_height = (trunks > 0 ? height / trunks : dot(up, p.target_centroid)) - p.target_ground;
-  p.dialled_turn.assign(count, Quaternion());
+  p.dialled_turn.assign(count, deform::Quaternion());
   p.stiff.assign(count, 0.0);
 }
 
@@ -133,9 +133,9 @@ void Transfer::turn_dials(Prepared& p) const noexcept {
     if (limb.root < 0 || follow == 0) continue;
     for (std::size_t c = 0; c < limb.share.size(); ++c) {
       if (!(limb.share[c] > 0)) continue;
-      Quaternion& turn = p.dialled_turn[c];
+      deform::Quaternion& turn = p.dialled_turn[c];
       if (follow > 0)
-        turn = normalised(turn * power(turn.conjugate() * power(limb.turn, limb.share[c]), follow));
+        turn = deform::normalised(turn * power(turn.conjugate() * power(limb.turn, limb.share[c]), follow));
       else if (c != at(limb.root))
         p.stiff[c] = -follow * limb.share[c];
     }
@@ -144,7 +144,7 @@ void Transfer::turn_dials(Prepared& p) const noexcept {
     if (limb.root < 0 || dials_.arm_space == 0) continue;
     for (std::size_t c = 0; c < limb.share.size(); ++c)
       if (limb.share[c] > 0)
-        p.dialled_turn[c] = normalised(power(limb.turn, dials_.arm_space * limb.share[c]) * p.dialled_turn[c]);
+        p.dialled_turn[c] = deform::normalised(power(limb.turn, dials_.arm_space * limb.share[c]) * p.dialled_turn[c]);
   }
 }
 
@@ -152,8 +152,8 @@ void Transfer::turn_dials(Prepared& p) const noexcept {
 void Transfer::stiffen(Prepared& p) const noexcept {
   for (std::size_t c = 0; c < p.stiff.size(); ++c) {
     if (!(p.stiff[c] > 0)) continue;
-    const Quaternion& root = p.given[at(p.neck.root >= 0 && p.neck.share[c] > 0 ? p.neck.root : p.tail.root)];
-    p.given[c] = normalised(root * power(root.conjugate() * p.given[c], 1 - p.stiff[c]));
+    const deform::Quaternion& root = p.given[at(p.neck.root >= 0 && p.neck.share[c] > 0 ? p.neck.root : p.tail.root)];
+    p.given[c] = deform::normalised(root * power(root.conjugate() * p.given[c], 1 - p.stiff[c]));
     p.rotations[c] = p.given[c];
     p.matrices[c] = p.given[c].toRotationMatrix();
   }
@@ -184,4 +184,4 @@ void Transfer::move_paths(Prepared& p) const {
                       p.shifts.data());
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

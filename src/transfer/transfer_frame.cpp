@@ -9,7 +9,7 @@
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 // Tells how rigid a frame of the source is, from 0 to 1.
@@ -17,29 +17,29 @@ double rigid_share(const WholeMotion& whole) noexcept {
   const double ratio = whole.residual / rigid_residual;
   return 1 / (1 + ratio * ratio);
 }
-double turned_share(const Quaternion& turn) noexcept {
-  return smooth_step(turn_low, turn_high, angle_between(turn, Quaternion()));
+double turned_share(const deform::Quaternion& turn) noexcept {
+  return smooth_step(turn_low, turn_high, deform::angle_between(turn, deform::Quaternion()));
 }
 
 // The angle by which a turn tips an upright direction. Turns about the vertical do not count.
-double tilt(const Quaternion& turn, Vec3 up) noexcept {
-  return arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0));
+double tilt(const deform::Quaternion& turn, Vec3 up) noexcept {
+  return arc_cosine(std::clamp(dot(up, deform::rotate(turn, up)), -1.0, 1.0));
 }
 
 // Tells how far the body, or a foot, has fallen over, from 0 to 1.
-double fallen_share(const Quaternion& turn, Vec3 up) noexcept {
+double fallen_share(const deform::Quaternion& turn, Vec3 up) noexcept {
   return smooth_step(fall_low, fall_high, tilt(turn, up));
 }
 
 // Returns the part of the rotation q that turns about the axis, and how certain that part is: it has no meaning for a
 // half turn about another axis.
 struct Twist {
-  Quaternion turn;
+  deform::Quaternion turn;
   double certain;
 };
-Twist about(const Quaternion& q, Vec3 axis) noexcept {
-  const double along = dot(to_vec3(q.vec()), axis);
-  return {normalised({along * axis, q.w()}), smooth_step(twist_low, twist_high, along * along + q.w() * q.w())};
+Twist about(const deform::Quaternion& q, Vec3 axis) noexcept {
+  const double along = dot(deform::to_vec3(q.vec()), axis);
+  return {deform::normalised({along * axis, q.w()}), smooth_step(twist_low, twist_high, along * along + q.w() * q.w())};
 }
 
 HF_VECTOR(Four, double, 4);
@@ -79,26 +79,26 @@ void blend_vertices(const BlendInput& in, std::size_t first, std::size_t last, V
 // place while the body turns over it. While the body is upright and the foot is low, the foot's offset therefore turns
 // only as far about the vertical as the foot itself. High in the air it turns with the body: a foot that kicks points
 // anywhere.
-void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
+void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const deform::Quaternion& turn) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);
   const Twist round = about(turn, up);
   const double rigid = rigid_share(whole), fallen = std::max(rigid, fallen_share(turn, up)),
                yaw = round.certain * turned_share(round.turn);
   const Mat3 carried = power(turn, std::max(fallen, yaw)).toRotationMatrix();
   if (dials_.moves_paths()) {
-    const Vec3 travel = p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
+    const Vec3 travel = p.scale * deform::rotate(axes_, whole.centroid - whole.rest_centroid);
     p.body_rise = (1 - fallen_share(turn, up)) * dials_.hip_height_share * p.hip_height;
     p.body_excess = (dials_.stride - 1) * (travel - dot(up, travel) * up) + p.body_rise * up;
   }
   for (std::size_t k = 0; k < p.anchors.size(); ++k) {
     Prepared::Anchor& anchor = p.anchors[k];
     const Span<const std::int32_t> from = source_.region(anchor.number), to = target_.region(anchor.number);
-    const Vec3 path = p.scale * rotate(axes_, region_mean(from, p.posed.data()) - anchor.source_rest);
-    const Vec3 offset =
-        anchor.target_rest - p.target_centroid - p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid);
-    Twist own{Quaternion(), 0};
+    const Vec3 path = p.scale * deform::rotate(axes_, region_mean(from, p.posed.data()) - anchor.source_rest);
+    const Vec3 offset = anchor.target_rest - p.target_centroid -
+                        p.scale * deform::rotate(axes_, anchor.source_rest - whole.rest_centroid);
+    Twist own{deform::Quaternion(), 0};
     const auto c = static_cast<std::size_t>(anchor.cluster);
-    const Quaternion own_turn = p.given[c] * p.dialled_turn[c].conjugate();
+    const deform::Quaternion own_turn = p.given[c] * p.dialled_turn[c].conjugate();
     // A body leans over feet that stand, and falls with those that tip.
     anchor.fallen = fallen_share(turn, up);
     if (anchor.is_foot)
@@ -114,13 +114,13 @@ void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quater
     const auto turned = [&](Vec3 arm) {
       Vec3 out = carried * arm - arm;
       // A share of the turned arm, not of the turn: half a turn to the left is the same as half a turn to the right.
-      if (steps) out = (1 - own_share) * out + (own_share * own.certain) * (rotate(own.turn, arm) - arm);
+      if (steps) out = (1 - own_share) * out + (own_share * own.certain) * (deform::rotate(own.turn, arm) - arm);
       return out;
     };
     p.goals[k] = anchor.target_rest + path + turned(offset);
     if (dials_.moves_paths()) {
       // The part of the path that the body's turn makes does not count as travel.
-      const Vec3 travel = path - turned(p.scale * rotate(axes_, anchor.source_rest - whole.rest_centroid));
+      const Vec3 travel = path - turned(p.scale * deform::rotate(axes_, anchor.source_rest - whole.rest_centroid));
       p.excess[k] = (dials_.stride - 1) * (travel - dot(up, travel) * up);
       if (anchor.flags & HF_PAIR_TRUNK) p.excess[k] = p.excess[k] + p.body_rise * up;
     }
@@ -145,9 +145,9 @@ void Transfer::read_holds(Prepared& p, Span<const PairHold> holds) const {
       fail(HF_ERROR_NOT_FOUND, index, "entry %zu of the holds: the transfer has no pair %u", i, number);
     if (!is_finite(holds[i].place))
       fail(HF_ERROR_NON_FINITE, index, "entry %zu of the holds: the place of pair %u is not finite", i, number);
-    if (is_too_far(target_core_->mesh.to_inner(holds[i].place)))
+    if (mesh::is_too_far(target_core_->mesh.to_inner(holds[i].place)))
       fail(HF_ERROR_TOO_LARGE, index, "entry %zu of the holds: the place of pair %u is more than %g box diagonals away",
-           i, number, farthest_pose);
+           i, number, mesh::farthest_pose);
     const auto row_in = [&](const Vector<Prepared::Anchor>& list) {
       std::size_t k = 0;
       while (k < list.size() && list[k].number != number) ++k;
@@ -199,21 +199,21 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
     if (!is_finite(source[v]))
       fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(given), "vertex %d of the posed source is not finite",
            given);
-    if (is_too_far(source_core_->mesh.to_inner(source[v])))
+    if (mesh::is_too_far(source_core_->mesh.to_inner(source[v])))
       fail(HF_ERROR_TOO_LARGE, static_cast<std::uint32_t>(given),
            "vertex %d of the posed source is more than %g box diagonals from the surface at rest", given,
-           farthest_pose);
+           mesh::farthest_pose);
   }
   Prepared& p = prepare();
   if (options_.mode == HF_TRANSFER_STRETCH && !holds.empty())
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a transfer of mode HF_TRANSFER_STRETCH takes no holds");
   read_holds(p, holds);
-  const Mesh& from = source_core_->mesh;
-  const Mesh& to = target_core_->mesh;
+  const mesh::Mesh& from = source_core_->mesh;
+  const mesh::Mesh& to = target_core_->mesh;
   for (std::size_t v = 0; v < p.posed.size(); ++v) p.posed[v] = from.to_inner(source[v]);
   const WholeMotion whole = p.source_rotations.whole(from, source_area_, p.posed.data());
   if (options_.mode == HF_TRANSFER_STRETCH) {
-    const Quaternion turn = normalised(axes_ * whole.rotation * axes_.conjugate());
+    const deform::Quaternion turn = deform::normalised(axes_ * whole.rotation * axes_.conjugate());
     p.gradients.apply({source_core_.get(), target_core_.get(), target_factor_.get(), p.posed.data(), whole, axes_, turn,
                        p.scale, p.target_centroid, target_area_},
                       p.blended.data());
@@ -228,12 +228,12 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   }
 
   // Takes the rotations of the source's clusters into the target's axes and rest directions.
-  const Quaternion turn = normalised(axes_ * whole.rotation * axes_.conjugate());
-  const Vec3 centroid = p.target_centroid + p.scale * rotate(axes_, whole.centroid - whole.rest_centroid);
+  const deform::Quaternion turn = deform::normalised(axes_ * whole.rotation * axes_.conjugate());
+  const Vec3 centroid = p.target_centroid + p.scale * deform::rotate(axes_, whole.centroid - whole.rest_centroid);
   for (std::size_t c = 0; c < p.rotations.size(); ++c) {
-    p.given[c] = p.rotations[c] = normalised(axes_ * p.given[c] * axes_.conjugate() * p.dialled_turn[c]);
+    p.given[c] = p.rotations[c] = deform::normalised(axes_ * p.given[c] * axes_.conjugate() * p.dialled_turn[c]);
     p.matrices[c] = p.rotations[c].toRotationMatrix();
-    p.cluster_goals[c] = centroid + rotate(turn, p.clusters.pivot[c] - p.target_centroid);
+    p.cluster_goals[c] = centroid + deform::rotate(turn, p.clusters.pivot[c] - p.target_centroid);
   }
   if (dials_.turns_limbs()) stiffen(p);
   place_anchors(p, whole, turn);
@@ -263,4 +263,4 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   make_rigid(p, out);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -15,7 +15,7 @@
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 // Constrains (holds) the regions that stand or touch, and those that the caller places. share: how far the
 // frame is a rigid motion, or the body has fallen over. At share 1 only the caller's constraints remain, and feet that
 // have not fallen over themselves.
@@ -180,8 +180,8 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
 // target. rigid: the share of a rigid motion of the whole source, which is copied unchanged. It moves the target that a
 // source at rest gives; limbs that the rest alignment turns must not sink there. So that share has a ground that moves
 // with the body.
-void Transfer::keep_above_ground(Prepared& p, const Quaternion& turn, Vec3 centroid, double rigid) const {
-  const Vec3 up = up_of(target_axes_), own_up = rotate(turn, up);
+void Transfer::keep_above_ground(Prepared& p, const deform::Quaternion& turn, Vec3 centroid, double rigid) const {
+  const Vec3 up = up_of(target_axes_), own_up = deform::rotate(turn, up);
   const double allowed = p.target_ground + p.scale * std::min(0.0, p.source_low - p.source_ground),
                own = p.target_ground + dot(own_up, centroid) - dot(up, p.target_centroid);
   // Both shares raise the same surface, so it is blended anew only after both.
@@ -191,4 +191,4 @@ void Transfer::keep_above_ground(Prepared& p, const Quaternion& turn, Vec3 centr
   if (raised) blend(p);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

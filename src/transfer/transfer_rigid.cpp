@@ -4,16 +4,16 @@
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 void Transfer::set_rigid_pieces(Span<const std::int32_t> vertices) {
   Memory& memory = *target_core_->memory;
-  std::shared_ptr<const RigidPieces> rigid;
+  std::shared_ptr<const deform::RigidPieces> rigid;
   // the core that was factorised has the links
   if (!vertices.empty())
-    rigid = make_shared_in<RigidPieces>(memory, *target_factor_, vertices, target_core_->mesh, memory);
+    rigid = make_shared_in<deform::RigidPieces>(memory, *target_factor_, vertices, target_core_->mesh, memory);
   Buffer<Vec3> scratch(memory, rigid ? rigid->scratch_size() : 0);
-  Vector<RigidMotion> motions(rigid ? rigid->count() : 0, RigidMotion(), &memory);
+  Vector<deform::RigidMotion> motions(rigid ? rigid->count() : 0, deform::RigidMotion(), &memory);
   if (prepared_) prepared_->rigid_motions.swap(motions);
   rigid_scratch_ = std::move(scratch);
   rigid_ = std::move(rigid);
@@ -25,11 +25,11 @@ void Transfer::make_rigid(Prepared& p, Vec3* out) noexcept {
 
 std::size_t Transfer::joint_count() { return at(prepare().clusters.count) + (rigid_ ? rigid_->count() : 0); }
 
-void Transfer::skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places) {
+void Transfer::skin_motion(Vec3* pivots, deform::Quaternion* rotations, Vec3* places) {
   if (options_.mode == HF_TRANSFER_STRETCH)
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a transfer of mode HF_TRANSFER_STRETCH is no skin; take its positions");
   const Prepared& p = prepare();
-  const Mesh& mesh = target_core_->mesh;
+  const mesh::Mesh& mesh = target_core_->mesh;
   const std::size_t clusters = p.rotations.size();
   for (std::size_t c = 0; c < clusters; ++c) {
     if (pivots) pivots[c] = mesh.to_given(p.clusters.pivot[c]);
@@ -40,7 +40,7 @@ void Transfer::skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places) {
     const Vec3 pivot = rigid_->centroid(k);
     if (pivots) pivots[clusters + k] = pivot;
     if (rotations) rotations[clusters + k] = p.rigid_motions[k].rotation;
-    if (places) places[clusters + k] = hf_inner::apply(p.rigid_motions[k], pivot);
+    if (places) places[clusters + k] = hf_inner::deform::apply(p.rigid_motions[k], pivot);
   }
 }
 
@@ -58,4 +58,4 @@ void Transfer::skin_weights(std::int32_t vertex, std::uint32_t influence_count, 
   joints[0] = static_cast<std::uint32_t>(p.clusters.count + piece);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

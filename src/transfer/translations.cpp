@@ -8,7 +8,7 @@
 #include "base/index.h"
 #include "base/progress.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 namespace {
 
 template <class Matrix>
@@ -26,7 +26,7 @@ void add_point(Vector<double>& table, std::size_t entry, double w, Vec3 p) noexc
 
 }  // namespace
 
-void Translations::add_overlap(Span<const double> area, const Core& target, const Clusters& clusters,
+void Translations::add_overlap(Span<const double> area, const surface::Core& target, const Clusters& clusters,
                                Buffer<double>& matrix, Vector<double>& table) const {
   const std::size_t count = at(count_);
   Poller poller;
@@ -48,7 +48,7 @@ void Translations::add_overlap(Span<const double> area, const Core& target, cons
   }
 }
 
-SpreadTies spread_ties(const Core& core, const std::int32_t* joint, const float* weight, std::size_t count,
+SpreadTies spread_ties(const surface::Core& core, const std::int32_t* joint, const float* weight, std::size_t count,
                        Memory& memory) {
   SpreadTies out(count, memory);
   double floor = 0;
@@ -95,7 +95,7 @@ SpreadTies spread_ties(const Core& core, const std::int32_t* joint, const float*
   return out;
 }
 
-void Translations::add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target,
+void Translations::add_row(Span<const std::int32_t> vertices, Span<const double> weights, const surface::Core& target,
                            const Clusters& clusters) {
   Vector<double> weight(at(count_), 0.0, target.memory.get());
   Vector<Vec3> point(at(count_), target.memory.get());
@@ -120,7 +120,7 @@ void Translations::add_row(Span<const std::int32_t> vertices, Span<const double>
   row_start_.push_back(static_cast<std::int32_t>(row_column_.size()));
 }
 
-void Translations::prepare(const Core& target, Span<const double> area, const Clusters& clusters,
+void Translations::prepare(const surface::Core& target, Span<const double> area, const Clusters& clusters,
                            Span<const Span<const std::int32_t>> regions, Span<const Span<const std::int32_t>> loose,
                            const TranslationOptions& options) {
   Memory& memory = *target.memory;
@@ -350,4 +350,4 @@ void Translations::solve(const Clusters& clusters, const Mat3* rotations, Span<c
   for (std::size_t c = 0; c < at(count_); ++c) out[c] = {scratch_[4 * c], scratch_[4 * c + 1], scratch_[4 * c + 2]};
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

@@ -24,10 +24,10 @@
 #include "base/span.h"
 #include "deform/dense.h"
 #include "deform/rotation.h"
-#include "engine/core.h"
+#include "surface/core.h"
 #include "transfer/clusters.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 struct TranslationOptions {
   double spread_share = default_spread_share;  // a: weight of E_spread beside E_overlap
@@ -56,7 +56,7 @@ struct SpreadTies {
   Vector<double> matrix, size, table;
 };
 // joint, weight: blend_count for each vertex of the surface.
-SpreadTies spread_ties(const Core& core, const std::int32_t* joint, const float* weight, std::size_t count,
+SpreadTies spread_ties(const surface::Core& core, const std::int32_t* joint, const float* weight, std::size_t count,
                        Memory& memory);
 
 class Translations {
@@ -82,7 +82,7 @@ class Translations {
   // Builds and factors the matrix. regions: vertices of each target region that follows its source (anchored). loose:
   // vertices of the other regions, which only constraints (holds) move. Rows number the anchored regions first, then
   // the root, then the loose regions from regions.size() + 1.
-  void prepare(const Core& target, Span<const double> area, const Clusters& clusters,
+  void prepare(const surface::Core& target, Span<const double> area, const Clusters& clusters,
                Span<const Span<const std::int32_t>> regions, Span<const Span<const std::int32_t>> loose,
                const TranslationOptions& options);
 
@@ -123,9 +123,9 @@ class Translations {
   Mat3 mean_rotation(std::size_t anchor, const Mat3* rotations) const noexcept;
 
  private:
-  void add_overlap(Span<const double> area, const Core& target, const Clusters& clusters, Buffer<double>& matrix,
-                   Vector<double>& table) const;
-  void add_row(Span<const std::int32_t> vertices, Span<const double> weights, const Core& target,
+  void add_overlap(Span<const double> area, const surface::Core& target, const Clusters& clusters,
+                   Buffer<double>& matrix, Vector<double>& table) const;
+  void add_row(Span<const std::int32_t> vertices, Span<const double> weights, const surface::Core& target,
                const Clusters& clusters);
 
   void add_influences();
@@ -140,7 +140,7 @@ class Translations {
   std::int32_t count_ = 0;
   std::size_t anchored_ = 0, region_rows_ = 0;
   double anchor_ = 0, root_ = 0, whole_ = 0, spread_share_ = 1;
-  DenseFactor factor_;
+  deform::DenseFactor factor_;
   Vector<double> scratch_;  // right-hand side and solution, four numbers per cluster
   Vector<std::int32_t> table_start_, table_column_;
   Vector<Vec3> table_;
@@ -156,4 +156,4 @@ class Translations {
   Vector<Vec3> hold_rhs_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

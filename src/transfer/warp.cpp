@@ -7,7 +7,7 @@
 #include "base/index.h"
 #include "transfer/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 // Solves [-R + ridge, P; P', -affine_ridge] [a; b] = [d; 0] by elimination with row pivots; R holds the distances, P
 // the places and ones. It is written by hand, because the size is known at run time only.
@@ -55,4 +55,4 @@ Vec3 Warp::operator()(Vec3 x) const noexcept {
   return x + sum;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

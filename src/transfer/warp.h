@@ -9,7 +9,7 @@
 #include "base/span.h"
 #include "mesh/mesh.h"
 
-namespace hf_inner {
+namespace hf_inner::transfer {
 
 class Warp {
  public:
@@ -24,4 +24,4 @@ class Warp {
   Vec3 affine_[4];  // columns of B, and b
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::transfer

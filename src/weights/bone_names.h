@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/span.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 using BoneName = Span<const char>;
 
@@ -64,4 +64,4 @@ inline bool is_word(const BoneName& name, std::size_t begin, std::size_t end, co
   return true;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -6,17 +6,18 @@
 #include "base/error.h"
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
-FilledWeights transfer_weights(const Mesh& source, const SkinShape& source_skin, const GivenWeights& given,
-                            std::shared_ptr<const Core> target, const MatchOptions& options, const Surface* surface) {
+FilledWeights transfer_weights(const mesh::Mesh& source, const mesh::SkinShape& source_skin, const GivenWeights& given,
+                               std::shared_ptr<const surface::Core> target, const MatchOptions& options,
+                               const surface::Surface* surface) {
   Memory& memory = *target->memory;
-  const Mesh& mesh = target->mesh;
+  const mesh::Mesh& mesh = target->mesh;
   const WeightRows rows = read_rows(
       source, given, [](Index) { return true; }, memory);
   const WeightedShape shape(source, source_skin, rows, memory);
   if (shape.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no vertex of the source has a weight above 0");
-  const SkinShape skin(mesh, memory);
+  const mesh::SkinShape skin(mesh, memory);
   const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
   const auto probe = [&](Index v, Probe& out) {
     const Vec3 p = source.to_inner(mesh.to_given(mesh.positions[at(v)]));
@@ -39,4 +40,4 @@ FilledWeights transfer_weights(const Mesh& source, const SkinShape& source_skin,
   return fill_weights(fill, guessed, options.influences);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

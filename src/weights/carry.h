@@ -7,7 +7,7 @@
 #include "weights/carry_fill.h"
 #include "weights/carry_match.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // Weights by vertex of the caller, a view of the caller's arrays.
 struct GivenWeights {
@@ -24,7 +24,7 @@ struct MatchOptions {
 
 // Reads the rows of the inner vertices. takes(v): whether vertex v has weights; others get empty rows.
 template <class Takes>
-WeightRows read_rows(const Mesh& mesh, const GivenWeights& given, Takes&& takes, Memory& memory) {
+WeightRows read_rows(const mesh::Mesh& mesh, const GivenWeights& given, Takes&& takes, Memory& memory) {
   WeightRows rows(memory);
   Poller poller;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -45,8 +45,8 @@ struct Probe {
 
 // Finds the match of every vertex for which probe(v, out) is true. any: the nearest point, of any normal and distance.
 template <class ProbeOf>
-Vector<Match> find_matches(const WeightedShape& source, const Core& target, const MatchOptions& options, bool any,
-                           ProbeOf&& probe) {
+Vector<Match> find_matches(const WeightedShape& source, const surface::Core& target, const MatchOptions& options,
+                           bool any, ProbeOf&& probe) {
   // Vertices in one thread's job, some 0.2 ms. A transfer to 17,424 vertices takes 75 ms on two threads; half and
   // double change it by 2 ms at most.
   constexpr std::size_t piece = 256;
@@ -63,8 +63,8 @@ Vector<Match> find_matches(const WeightedShape& source, const Core& target, cons
 
 // source, skin: of the surface with weights. target: a core of the other. surface: as in Fill. Throws HF_ERROR_EMPTY if
 // no vertex of the source has weights.
-FilledWeights transfer_weights(const Mesh& source, const SkinShape& skin, const GivenWeights& given,
-                            std::shared_ptr<const Core> target, const MatchOptions& options,
-                            const Surface* surface = nullptr);
+FilledWeights transfer_weights(const mesh::Mesh& source, const mesh::SkinShape& skin, const GivenWeights& given,
+                               std::shared_ptr<const surface::Core> target, const MatchOptions& options,
+                               const surface::Surface* surface = nullptr);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

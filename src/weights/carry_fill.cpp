@@ -6,14 +6,14 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/stable_sort.h"
-#include "engine/constraint_system.h"
-#include "engine/site_solver.h"
+#include "solve/constraint_system.h"
+#include "solve/site_solver.h"
 #include "weights/constants.h"
 #include "weights/pieces.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
-Vector<std::uint8_t> known_pieces(const Mesh& mesh, const WeightRows& known, Memory& memory) {
+Vector<std::uint8_t> known_pieces(const mesh::Mesh& mesh, const WeightRows& known, Memory& memory) {
   Vector<std::uint8_t> out(at(mesh.component_count()), 0, &memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) out[at(mesh.component[at(v)])] |= known.has(v);
   return out;
@@ -35,8 +35,8 @@ struct Solved {
 };
 
 // Marks the vertices to fill in. The sites are the known vertices of their pieces.
-Vector<Site> choose_sites(const Fill& fill, const Vector<std::uint8_t>& known, Solved& out, Memory& memory) {
-  const Mesh& mesh = fill.core->mesh;
+Vector<solve::Site> choose_sites(const Fill& fill, const Vector<std::uint8_t>& known, Solved& out, Memory& memory) {
+  const mesh::Mesh& mesh = fill.core->mesh;
   Vector<std::uint8_t> open(known.size(), 0, &memory);
   out.row_of.assign(at(mesh.vertex_count()), -1);
   Index rows = 0;
@@ -47,19 +47,19 @@ Vector<Site> choose_sites(const Fill& fill, const Vector<std::uint8_t>& known, S
       open[c] = 1;
     }
   }
-  Vector<Site> sites(&memory);
+  Vector<solve::Site> sites(&memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (open[at(mesh.component[at(v)])] && fill.known.has(v)) sites.push_back(Site::at_vertex(mesh, v));
+    if (open[at(mesh.component[at(v)])] && fill.known.has(v)) sites.push_back(solve::Site::at_vertex(mesh, v));
   }
   return sites;
 }
 
 // The number of the column of every bone that a site has, or -1.
-Vector<Index> number_bones(const Fill& fill, const Vector<Site>& sites, Solved& out, Memory& memory) {
+Vector<Index> number_bones(const Fill& fill, const Vector<solve::Site>& sites, Solved& out, Memory& memory) {
   Index last = -1;
   for (const Share& share : fill.known.shares) last = std::max(last, share.bone);
   Vector<Index> column(at(last + 1), -1, &memory);
-  for (const Site& site : sites) {
+  for (const solve::Site& site : sites) {
     for (const Share& share : fill.known.of(site.vertex[0])) column[at(share.bone)] = 0;
   }
   for (std::size_t b = 0; b < column.size(); ++b) {
@@ -72,10 +72,10 @@ Vector<Index> number_bones(const Fill& fill, const Vector<Site>& sites, Solved& 
 
 // Bi-harmonic, or harmonic where the bi-harmonic operator has no factor. Discs of creatures that lose their weights get
 // back 0.83 of them with a bi-harmonic field, and 0.73 with a harmonic one.
-std::shared_ptr<const Core> solving_core(const Fill& fill) {
+std::shared_ptr<const surface::Core> solving_core(const Fill& fill) {
   if (!fill.surface) return fill.core;
   try {
-    return fill.surface->core(FieldKind::biharmonic);
+    return fill.surface->core(mesh::FieldKind::biharmonic);
   } catch (const Error& error) {
     if (error.code() != HF_ERROR_NOT_POSITIVE_DEFINITE) throw;
     return fill.core;
@@ -84,18 +84,18 @@ std::shared_ptr<const Core> solving_core(const Fill& fill) {
 
 Solved solve(const Fill& fill, const Vector<std::uint8_t>& known, Memory& memory) {
   Solved out(memory);
-  const Core& core = *fill.core;
-  const Vector<Site> sites = choose_sites(fill, known, out, memory);
+  const surface::Core& core = *fill.core;
+  const Vector<solve::Site> sites = choose_sites(fill, known, out, memory);
   const std::size_t n = at(core.size());
   const auto rows =
       static_cast<std::size_t>(std::count_if(out.row_of.begin(), out.row_of.end(), [](Index row) { return row >= 0; }));
   if (rows == 0) return out;
   const Vector<Index> column = number_bones(fill, sites, out, memory);
   report(fill_matched);
-  std::shared_ptr<SiteSolver> engine;
+  std::shared_ptr<solve::SiteSolver> engine;
   {
     const ProgressRange range(fill_matched, fill_factorised);
-    engine = SiteSolver::make(solving_core(fill));
+    engine = solve::SiteSolver::make(solving_core(fill));
   }
   Vector<Index> slots(sites.size(), &memory);
   std::iota(slots.begin(), slots.end(), 0);
@@ -105,7 +105,7 @@ Solved solve(const Fill& fill, const Vector<std::uint8_t>& known, Memory& memory
   }
   const ProgressRange range(fill_edited, 1.0f);
 
-  constexpr std::size_t block = ConstraintSystem::channel_block;  // bones of one sweep
+  constexpr std::size_t block = solve::ConstraintSystem::channel_block;  // bones of one sweep
   const std::size_t width = out.bone_of.size();
   out.field.allocate(memory, rows * width);
   Vector<double> values(&memory);
@@ -130,34 +130,34 @@ Solved solve(const Fill& fill, const Vector<std::uint8_t>& known, Memory& memory
   return out;
 }
 
-void count_given(const Mesh& mesh, FilledWeights& out) {
+void count_given(const mesh::Mesh& mesh, FilledWeights& out) {
   for (std::size_t g = 0; g < mesh.inner_of_given.size(); ++g) {
     const Index v = mesh.inner_of_given[g];
-    ++out.by_origin[static_cast<std::size_t>(v == Mesh::none ? Origin::isolated : out.origin[at(v)])];
+    ++out.by_origin[static_cast<std::size_t>(v == mesh::Mesh::none ? Origin::isolated : out.origin[at(v)])];
   }
 }
 
 // The diagonals of the boxes of pieces, by component.
-Vector<double> piece_sizes(const Mesh& mesh, Memory& memory) {
+Vector<double> piece_sizes(const mesh::Mesh& mesh, Memory& memory) {
   const std::size_t pieces = at(mesh.component_count());
-  Vector<ItemBox> box(pieces, &memory);
+  Vector<mesh::ItemBox> box(pieces, &memory);
   Vector<std::uint8_t> seen(pieces, 0, &memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const std::size_t c = at(mesh.component[at(v)]);
     if (!seen[c]) {
-      box[c] = ItemBox::of(mesh.positions[at(v)]);
+      box[c] = mesh::ItemBox::of(mesh.positions[at(v)]);
       seen[c] = 1;
     }
     box[c].take(mesh.positions[at(v)]);
   }
   Vector<double> out(&memory);
-  for (const ItemBox& b : box) out.push_back(norm(b.high - b.low));
+  for (const mesh::ItemBox& b : box) out.push_back(norm(b.high - b.low));
   return out;
 }
 
 // The mean of the rows of every small piece without known weights; empty rows for the others.
 WeightRows piece_means(const Fill& fill, const WeightRows& guessed, const Vector<std::uint8_t>& known, Memory& memory) {
-  const Mesh& mesh = fill.core->mesh;
+  const mesh::Mesh& mesh = fill.core->mesh;
   const Vector<double> size = piece_sizes(mesh, memory);
   struct Entry {
     Index piece;
@@ -188,7 +188,7 @@ WeightRows piece_means(const Fill& fill, const WeightRows& guessed, const Vector
 }  // namespace
 
 FilledWeights fill_weights(const Fill& fill, const WeightRows& guessed, std::int32_t influences) {
-  const Core& core = *fill.core;
+  const surface::Core& core = *fill.core;
   Memory& memory = *core.memory;
   FilledWeights out(memory);
   out.influences = influences;
@@ -230,4 +230,4 @@ FilledWeights fill_weights(const Fill& fill, const WeightRows& guessed, std::int
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

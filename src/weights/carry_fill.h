@@ -1,10 +1,10 @@
 // Fills in the weights of a surface of which some vertices have weights: one solve with those vertices as sites.
 #pragma once
-#include "engine/surface.h"
+#include "surface/surface.h"
 #include "weights/solution.h"
 #include "weights/weight_rows.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 struct FilledWeights {
   explicit FilledWeights(Memory& memory)
@@ -15,23 +15,24 @@ struct FilledWeights {
   Vector<Origin> origin;              // by inner vertex
   Vector<Index> nearest_of_isolated;  // by Mesh::isolated
   std::uint32_t by_origin[8] = {};    // vertices of the caller, by Origin
-  std::uint32_t pieces_guessed = 0;  // pieces without a vertex that has weights
+  std::uint32_t pieces_guessed = 0;   // pieces without a vertex that has weights
 };
 
 // A surface of which some vertices have weights.
 struct Fill {
-  Fill(std::shared_ptr<const Core> target, Memory& memory, const Surface* whose = nullptr)
+  Fill(std::shared_ptr<const surface::Core> target, Memory& memory, const surface::Surface* whose = nullptr)
       : core(std::move(target)), surface(whose), known(memory), origin(&memory) {}
-  std::shared_ptr<const Core> core;
-  const Surface* surface;  // where the bi-harmonic core comes from, if there is something to solve; null: core solves
-  WeightRows known;        // by inner vertex
-  Vector<Origin> origin;   // of the known ones
+  std::shared_ptr<const surface::Core> core;
+  const surface::Surface*
+      surface;            // where the bi-harmonic core comes from, if there is something to solve; null: core solves
+  WeightRows known;       // by inner vertex
+  Vector<Origin> origin;  // of the known ones
 };
 
 // By component: whether a vertex of it is known.
-Vector<std::uint8_t> known_pieces(const Mesh& mesh, const WeightRows& known, Memory& memory);
+Vector<std::uint8_t> known_pieces(const mesh::Mesh& mesh, const WeightRows& known, Memory& memory);
 
 // guessed: rows for every vertex of pieces without a known one. influences: 4 or 8.
 FilledWeights fill_weights(const Fill& fill, const WeightRows& guessed, std::int32_t influences);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -11,15 +11,15 @@
 #include "weights/constants.h"
 #include "weights/intake.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 // Checks the arrays of a desc: weights of every vertex, joints below most_bones.
 template <class Desc>
-GivenWeights read_given(const Desc& desc, const Mesh& mesh, std::uint32_t limit) {
-  if (desc.source_influence_count < 1 || desc.source_influence_count > most_skin_joints)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "source_influence_count is %u; it must be 1 to %u", desc.source_influence_count,
-         most_skin_joints);
+GivenWeights read_given(const Desc& desc, const mesh::Mesh& mesh, std::uint32_t limit) {
+  if (desc.source_influence_count < 1 || desc.source_influence_count > mesh::most_skin_joints)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "source_influence_count is %u; it must be 1 to %u",
+         desc.source_influence_count, mesh::most_skin_joints);
   require(desc.joints, "joints");
   require(desc.weights, "weights");
   for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
@@ -93,17 +93,19 @@ Span<const char> read_bone_names(const char* names, std::size_t bones, Memory& m
   return text;
 }
 
-GivenWeights read_carried(const hf_weights_transfer_desc& desc, const Mesh& source) {
+GivenWeights read_carried(const hf_weights_transfer_desc& desc, const mesh::Mesh& source) {
   return read_given(desc, source, most_bones);
 }
 
-MatchOptions read_carry(const hf_weights_transfer_desc& desc, const Mesh& source) { return match_options(desc, source.scale); }
+MatchOptions read_carry(const hf_weights_transfer_desc& desc, const mesh::Mesh& source) {
+  return match_options(desc, source.scale);
+}
 
-GivenWeights read_mirrored(const hf_weights_mirror_desc& desc, const Mesh& mesh) {
+GivenWeights read_mirrored(const hf_weights_mirror_desc& desc, const mesh::Mesh& mesh) {
   return read_given(desc, mesh, desc.joint_count);
 }
 
-MirrorBones read_mirror_bones(const hf_weights_mirror_desc& desc, const Mesh& mesh, Memory& memory) {
+MirrorBones read_mirror_bones(const hf_weights_mirror_desc& desc, const mesh::Mesh& mesh, Memory& memory) {
   MirrorBones bones(memory);
   check_bones(desc.joint_count, desc.heads);
   const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
@@ -117,7 +119,7 @@ MirrorBones read_mirror_bones(const hf_weights_mirror_desc& desc, const Mesh& me
   return bones;
 }
 
-MirrorOptions read_mirror(const hf_weights_mirror_desc& desc, const Mesh& mesh) {
+MirrorOptions read_mirror(const hf_weights_mirror_desc& desc, const mesh::Mesh& mesh) {
   MirrorOptions options;
   options.carry = match_options(desc, mesh.scale);
   check_choice(desc.to, 3, "to");
@@ -136,4 +138,4 @@ MirrorOptions read_mirror(const hf_weights_mirror_desc& desc, const Mesh& mesh) 
   return options;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -4,20 +4,21 @@
 
 #include "mesh/nearest_triangle.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // Squared distances that differ by less than this share are equal. It is above their rounding, 1e-16.
 constexpr double same_distance = 1e-12;
 
-WeightedShape::WeightedShape(const Mesh& mesh, const SkinShape& skin, const WeightRows& rows, Memory& memory)
+WeightedShape::WeightedShape(const mesh::Mesh& mesh, const mesh::SkinShape& skin, const WeightRows& rows,
+                             Memory& memory)
     : mesh_(mesh), skin_(skin), rows_(rows), triangle_(&memory), tree_(collect(memory), memory) {}
 
-Vector<ItemBox> WeightedShape::collect(Memory& memory) {
-  Vector<ItemBox> boxes(&memory);
+Vector<mesh::ItemBox> WeightedShape::collect(Memory& memory) {
+  Vector<mesh::ItemBox> boxes(&memory);
   for (Index t = 0; t < mesh_.triangle_count(); ++t) {
     const Index* v = mesh_.triangle(t);
     if (!rows_.has(v[0]) && !rows_.has(v[1]) && !rows_.has(v[2])) continue;
-    ItemBox box = ItemBox::of(mesh_.positions[at(v[0])]);
+    mesh::ItemBox box = mesh::ItemBox::of(mesh_.positions[at(v[0])]);
     box.take(mesh_.positions[at(v[1])]);
     box.take(mesh_.positions[at(v[2])]);
     boxes.push_back(box);
@@ -30,8 +31,8 @@ Match WeightedShape::nearest(Index t, const Vec3& p) const noexcept {
   const Index* v = mesh_.triangle(t);
   Match out;
   out.triangle = t;
-  out.squared = squared_to_triangle(p, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])], mesh_.positions[at(v[2])],
-                                    out.weight);
+  out.squared = mesh::squared_to_triangle(p, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
+                                          mesh_.positions[at(v[2])], out.weight);
   return out;
 }
 
@@ -74,4 +75,4 @@ Match WeightedShape::find(const Vec3& p, const Vec3& normal, double within, doub
   return best;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -3,7 +3,7 @@
 #include "weights/skeleton.h"
 #include "weights/weight_rows.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 struct Match {
   Index triangle = -1;
@@ -18,7 +18,7 @@ constexpr double least_known = 1e-9;
 class WeightedShape {
  public:
   // Takes triangles with a corner that has weights. All arguments must outlive this object.
-  WeightedShape(const Mesh& mesh, const SkinShape& skin, const WeightRows& rows, Memory& memory);
+  WeightedShape(const mesh::Mesh& mesh, const mesh::SkinShape& skin, const WeightRows& rows, Memory& memory);
   bool empty() const noexcept { return triangle_.empty(); }
   // The nearest point within a squared distance, whose normal has at least this cosine with `normal`. A cosine of -1
   // takes any normal. Triangle -1: there is none.
@@ -38,7 +38,7 @@ class WeightedShape {
   }
 
  private:
-  Vector<ItemBox> collect(Memory& memory);
+  Vector<mesh::ItemBox> collect(Memory& memory);
   // How much of a point belongs to corners with weights, 0 to 1.
   double known_share(const Match& match) const noexcept {
     const Index* v = mesh_.triangle(match.triangle);
@@ -49,11 +49,11 @@ class WeightedShape {
   // The point of triangle t nearest to p.
   Match nearest(Index t, const Vec3& p) const noexcept;
   bool agrees(const Match& match, const Vec3& normal, double cosine) const noexcept;
-  const Mesh& mesh_;
-  const SkinShape& skin_;
+  const mesh::Mesh& mesh_;
+  const mesh::SkinShape& skin_;
   const WeightRows& rows_;
   Vector<Index> triangle_;
-  BoxTree tree_;
+  mesh::BoxTree tree_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

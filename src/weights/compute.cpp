@@ -6,7 +6,7 @@
 #include "weights/pieces.h"
 #include "weights/weights.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 // Shares of progress when the solution stands, and when the pins are solved.
@@ -39,7 +39,7 @@ class SmoothRows {
 // One computation, with what its steps share.
 class Computation {
  public:
-  Computation(const Core& core, WeightState& state, std::int32_t influences)
+  Computation(const surface::Core& core, WeightState& state, std::int32_t influences)
       : core_(core),
         memory_(*core.memory),
         state_(state),
@@ -157,7 +157,7 @@ class Computation {
     counts.blind = state_.solution->informants.blind;
   }
 
-  const Core& core_;
+  const surface::Core& core_;
   Memory& memory_;
   WeightState& state_;
   const std::int32_t influences_;
@@ -183,7 +183,7 @@ bool same(const Bones& a, const Bones& b) noexcept {
 }  // namespace
 
 std::shared_ptr<const WeightState> Weights::compute(const Inputs& inputs) const {
-  const Core& core = *surface_->core;
+  const surface::Core& core = *surface_->core;
   const auto next = make_shared_in<WeightState>(memory(), memory());
   next->inputs = inputs;
   if (state_) {
@@ -210,4 +210,4 @@ std::shared_ptr<const WeightState> Weights::compute(const Inputs& inputs) const 
   return next;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

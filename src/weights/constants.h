@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // --- intake.cpp, carry_intake.cpp ---
 
@@ -211,4 +211,4 @@ constexpr double mirror_outlier = 0.05;
 // frog has 0.037 instead of 0.033. The other 17 runs change by at most 0.006.
 constexpr double mirror_gain = 0.95;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

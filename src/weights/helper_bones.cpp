@@ -5,7 +5,7 @@
 #include "weights/bone_names.h"
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 // Chosen on 13 shared rigs of 415 joints. These points propose 31 of the 37 joints without weights, and 3 of the
@@ -74,4 +74,4 @@ Vector<std::uint32_t> helper_reasons(const Bones& bones, const Vector<std::uint3
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -2,7 +2,7 @@
 #pragma once
 #include "weights/solution.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // Why a bone looks like a helper. Bits.
 enum HelperReason : std::uint32_t {
@@ -28,4 +28,4 @@ struct HelperPoints {
 Vector<std::uint32_t> helper_reasons(const Bones& bones, const Vector<std::uint32_t>& faults, Span<const char> names,
                                      Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -8,7 +8,7 @@
 #include "weights/constants.h"
 #include "weights/piece_bones.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 struct Found {
@@ -23,10 +23,10 @@ struct Candidate {
   Vec3 place;       // on the bone
 };
 
-Vector<ItemBox> segment_boxes(const Vector<BoneSegment>& segments, Memory& memory) {
-  Vector<ItemBox> boxes(&memory);
+Vector<mesh::ItemBox> segment_boxes(const Vector<BoneSegment>& segments, Memory& memory) {
+  Vector<mesh::ItemBox> boxes(&memory);
   for (const BoneSegment& s : segments) {
-    ItemBox box = ItemBox::of(s.head);
+    mesh::ItemBox box = mesh::ItemBox::of(s.head);
     box.take(s.tail);
     boxes.push_back(box);
   }
@@ -36,8 +36,8 @@ Vector<ItemBox> segment_boxes(const Vector<BoneSegment>& segments, Memory& memor
 // The search of one thread. It keeps its list of candidates between vertices.
 class Search {
  public:
-  Search(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments, const BoxTree& tree,
-         Memory& memory)
+  Search(const mesh::Mesh& mesh, const mesh::SkinShape& skin, const Vector<BoneSegment>& segments,
+         const mesh::BoxTree& tree, Memory& memory)
       : mesh_(mesh), skin_(skin), segments_(segments), tree_(tree), candidates_(&memory) {}
 
   // Whether a vertex faces the bone that is nearest to it.
@@ -48,7 +48,7 @@ class Search {
     tree_.near(
         p, [&] { return best; },
         [&](Index i) {
-          const Vec3 away = p - nearest_on_segment(p, segments_[at(i)].head, segments_[at(i)].tail);
+          const Vec3 away = p - mesh::nearest_on_segment(p, segments_[at(i)].head, segments_[at(i)].tail);
           if (!(dot(away, away) < best)) return;
           best = dot(away, away);
           nearest = away;
@@ -69,7 +69,7 @@ class Search {
       return plain * plain;
     };
     tree_.near(p, reach, [&](Index i) {
-      const Vec3 place = nearest_on_segment(p, segments_[at(i)].head, segments_[at(i)].tail);
+      const Vec3 place = mesh::nearest_on_segment(p, segments_[at(i)].head, segments_[at(i)].tail);
       const Vec3 away = p - place;
       const double length = norm(away);
       const double turned = length > 0 ? dot(away, normal) / length : 1.0;
@@ -98,18 +98,19 @@ class Search {
     return out;
   }
 
-  const Mesh& mesh_;
-  const SkinShape& skin_;
+  const mesh::Mesh& mesh_;
+  const mesh::SkinShape& skin_;
   const Vector<BoneSegment>& segments_;
-  const BoxTree& tree_;
+  const mesh::BoxTree& tree_;
   Vector<Candidate> candidates_;
 };
 
 // By piece: 0 where an open surface faces its bones. It has no inside, so its front says nothing.
 template <class MakeSearch>
-Vector<std::uint8_t> find_fronts(const Mesh& mesh, const MakeSearch& make_search, Memory& memory, JobRunner& jobs) {
+Vector<std::uint8_t> find_fronts(const mesh::Mesh& mesh, const MakeSearch& make_search, Memory& memory,
+                                 JobRunner& jobs) {
   const std::size_t n = at(mesh.vertex_count());
-  const Vector<double> openness = component_openness(mesh, memory);
+  const Vector<double> openness = mesh::component_openness(mesh, memory);
   Vector<std::uint8_t> faces(n, 0, &memory), out(openness.size(), 1, &memory);
   for_ranges(jobs, n, vertex_piece, [&](std::size_t begin, std::size_t end) {
     const Search search = make_search();
@@ -128,8 +129,8 @@ Vector<std::uint8_t> find_fronts(const Mesh& mesh, const MakeSearch& make_search
 
 // Among pieces with none of their bones in sight, keeps the pieces that use them unseen. Small pieces do not: they get
 // the weights of other pieces, if those have weights.
-void keep_askers(const Mesh& mesh, bool others_see, Vector<std::uint8_t>& blind, Memory& memory) {
-  const Vector<ItemBox> boxes = piece_boxes(mesh, memory);
+void keep_askers(const mesh::Mesh& mesh, bool others_see, Vector<std::uint8_t>& blind, Memory& memory) {
+  const Vector<mesh::ItemBox> boxes = piece_boxes(mesh, memory);
   Vector<std::uint8_t> large(blind.size(), 0, &memory);
   for (std::size_t c = 0; c < blind.size(); ++c)
     large[c] = blind[c] && norm(boxes[c].high - boxes[c].low) >= rigid_size;
@@ -138,10 +139,10 @@ void keep_askers(const Mesh& mesh, bool others_see, Vector<std::uint8_t>& blind,
 
 }  // namespace
 
-Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments, Memory& memory,
-                           JobRunner& jobs) {
+Informants find_informants(const mesh::Mesh& mesh, const mesh::SkinShape& skin, const Vector<BoneSegment>& segments,
+                           Memory& memory, JobRunner& jobs) {
   const std::size_t n = at(mesh.vertex_count());
-  const BoxTree tree(segment_boxes(segments, memory), memory);
+  const mesh::BoxTree tree(segment_boxes(segments, memory), memory);
   const auto make_search = [&] { return Search(mesh, skin, segments, tree, memory); };
   const Vector<std::uint8_t> has_front = find_fronts(mesh, make_search, memory, jobs);
   Vector<Found> found(n, &memory);
@@ -182,4 +183,4 @@ Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -7,7 +7,7 @@
 #include "mesh/place_reader.h"
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 // Refuses parents in a circle: a walk from every bone up, which ends where an earlier walk was.
@@ -23,8 +23,8 @@ void check_parents(const Bones& bones, Memory& memory) {
   }
 }
 
-Site pin_site(const Mesh& mesh, const SurfacePlace& place) noexcept {
-  Site site;
+solve::Site pin_site(const mesh::Mesh& mesh, const mesh::SurfacePlace& place) noexcept {
+  solve::Site site;
   std::copy_n(place.vertex, 3, site.vertex);
   std::copy_n(place.weight, 3, site.weight);
   site.component = mesh.component[at(place.vertex[0])];
@@ -61,9 +61,9 @@ void read_pin_weights(const hf_pins_desc& desc, std::uint32_t i, std::uint32_t b
 }
 
 // The weights of locks by inner vertex, in the order of `bones`.
-void read_lock_values(const Mesh& mesh, std::uint32_t count, const float* values, Vector<float>& out) {
+void read_lock_values(const mesh::Mesh& mesh, std::uint32_t count, const float* values, Vector<float>& out) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const std::uint32_t given = given_vertex(mesh, v);
+    const std::uint32_t given = mesh::given_vertex(mesh, v);
     for (std::uint32_t i = 0; i < count; ++i) {
       const float value = values[std::size_t{given} * count + i];
       if (!std::isfinite(value)) fail(HF_ERROR_NON_FINITE, given, "value %u of vertex %u is not finite", i, given);
@@ -134,10 +134,10 @@ Vector<Index> read_sources(const hf_joints_desc& desc, std::uint32_t before, Mem
   return sources;
 }
 
-void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, Pins& pins, Memory& memory) {
+void read_pins(const hf_pins_desc& desc, const mesh::Mesh& mesh, std::uint32_t bones, Pins& pins, Memory& memory) {
   require_zero(desc.reserved);
   if (desc.pin_count == 0) return;
-  const Places places(desc.pin_count, desc.vertices, desc.places, desc.points);
+  const mesh::Places places(desc.pin_count, desc.vertices, desc.places, desc.points);
   require(desc.joints, "joints");
   require(desc.weights, "weights");
   if (desc.influence_count < 1 || desc.influence_count > most_influences)
@@ -146,7 +146,7 @@ void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, 
   if (desc.pin_count > mesh.report.vertex_count)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pin_count is %u; the mesh has %u vertices", desc.pin_count,
          mesh.report.vertex_count);
-  const PlaceReader reader(mesh, places, memory);
+  const mesh::PlaceReader reader(mesh, places, memory);
   for (std::uint32_t i = 0; i < desc.pin_count; ++i) {
     pins.places.push_back(pin_site(mesh, reader.read(i)));
     const double radius = desc.radii ? desc.radii[i] : 0.0;
@@ -158,7 +158,7 @@ void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, 
   }
 }
 
-LockInput read_locks(const Mesh& mesh, std::uint32_t joint_count, std::uint32_t count, const std::uint32_t* bones,
+LockInput read_locks(const mesh::Mesh& mesh, std::uint32_t joint_count, std::uint32_t count, const std::uint32_t* bones,
                      const float* values, Memory& memory) {
   if (count > joint_count)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "lock_count is %u, but there are %u joints", count, joint_count);
@@ -194,4 +194,4 @@ BoneFlagCounts count_bone_flags(Span<const std::uint32_t> faults) noexcept {
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

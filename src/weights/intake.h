@@ -3,7 +3,7 @@
 #include "hf/weights.h"
 #include "weights/weights.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // Checks the count of bones and their heads. Throws HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER or HF_ERROR_TOO_LARGE.
 void check_bones(std::uint32_t joint_count, const double* heads);
@@ -20,7 +20,7 @@ void read_first_bones(const hf_joints_desc& desc, Bones& bones, Memory& memory);
 Vector<Index> read_sources(const hf_joints_desc& desc, std::uint32_t before, Memory& memory);
 
 // Appends the pins to `pins`. bones: their count. Throws as hf_weights_set_pins says.
-void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, Pins& pins, Memory& memory);
+void read_pins(const hf_pins_desc& desc, const mesh::Mesh& mesh, std::uint32_t bones, Pins& pins, Memory& memory);
 
 // Locked bones and their weights [inner vertex][bones]; no weights: the present ones stay.
 struct LockInput {
@@ -29,7 +29,7 @@ struct LockInput {
   Vector<float> values;
 };
 // joint_count: of the skeleton. values: [vertex of the caller][count], or null. Throws as hf_weights_set_locks says.
-LockInput read_locks(const Mesh& mesh, std::uint32_t joint_count, std::uint32_t count, const std::uint32_t* bones,
+LockInput read_locks(const mesh::Mesh& mesh, std::uint32_t joint_count, std::uint32_t count, const std::uint32_t* bones,
                      const float* values, Memory& memory);
 
 // The flags HF_JOINT_* of a bone with these faults. A bone that no vertex needs and that is a point, a copy or outside
@@ -41,4 +41,4 @@ struct BoneFlagCounts {
 };
 BoneFlagCounts count_bone_flags(Span<const std::uint32_t> faults) noexcept;
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

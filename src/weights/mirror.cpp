@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 // The part of a vertex: it keeps its weights, takes mirrored ones, or takes the mean of both.
@@ -53,10 +53,10 @@ BoneMisses bone_misses(const BonePairs& pairs, double scale) noexcept {
 }
 
 MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& given, const MirrorBones& bones,
-                               const MirrorOptions& options, const Surface* whose) {
-  const std::shared_ptr<const Core>& core = surface.core;
+                               const MirrorOptions& options, const surface::Surface* whose) {
+  const std::shared_ptr<const surface::Core>& core = surface.core;
   Memory& memory = *core->memory;
-  const Mesh& mesh = core->mesh;
+  const mesh::Mesh& mesh = core->mesh;
   MirroredWeights out(memory);
   if (options.has_plane) {
     out.plane = options.plane;
@@ -137,4 +137,4 @@ MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& g
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -3,7 +3,7 @@
 #include "weights/carry.h"
 #include "weights/mirror_bones.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 enum class MirrorTo : std::int32_t {
   negative = 0,  // the side that the normal points to gives its weights
@@ -15,7 +15,7 @@ struct MirrorOptions {
   MirrorTo to = MirrorTo::negative;
   MatchOptions carry;
   bool has_plane = false;
-  MirrorPlane plane;  // with has_plane
+  mesh::MirrorPlane plane;  // with has_plane
 };
 
 // The bones, in the inner unit of the mesh.
@@ -29,7 +29,7 @@ struct MirrorBones {
 struct MirroredWeights {
   explicit MirroredWeights(Memory& memory) : filled(memory), pairs(memory) {}
   FilledWeights filled;
-  MirrorPlane plane;
+  mesh::MirrorPlane plane;
   BonePairs pairs;
   // Distances of the reflected vertices from the surface, inner unit.
   double mean_off = 0, worst_off = 0;
@@ -40,12 +40,12 @@ struct MirroredWeights {
 struct BoneMisses {
   double mean = 0, worst = 0;
   std::uint32_t worst_joint = HF_NO_INDEX;  // HF_NO_INDEX: none has a partner
-  std::uint32_t by[5] = {};                // bones, by PairedBy
+  std::uint32_t by[5] = {};                 // bones, by PairedBy
 };
 BoneMisses bone_misses(const BonePairs& pairs, double scale) noexcept;
 
 // whose: as in Fill. Throws HF_ERROR_EMPTY if no vertex of the side that gives has weights.
 MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& given, const MirrorBones& bones,
-                               const MirrorOptions& options, const Surface* whose = nullptr);
+                               const MirrorOptions& options, const surface::Surface* whose = nullptr);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -7,7 +7,7 @@
 #include "weights/bone_names.h"
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 // A name without its side: a hash of the other letters, and the side that was taken out.
@@ -91,14 +91,14 @@ Vector<Index> pair_names(Span<const char> names, std::size_t count, Memory& memo
 }
 
 BonePairs pair_bones(const Vector<Vec3>& heads, const Vector<Index>& named, const Vector<std::uint8_t>& given,
-                     const MirrorPlane& plane, Memory& memory) {
+                     const mesh::MirrorPlane& plane, Memory& memory) {
   const std::size_t count = heads.size();
   BonePairs out(memory);
   out.partner.assign(count, -1);
   out.by.assign(count, PairedBy::none);
   out.off.assign(count, 0.0);
   Vector<Index> rest(&memory);
-  Vector<ItemBox> boxes(&memory);
+  Vector<mesh::ItemBox> boxes(&memory);
   for (std::size_t b = 0; b < count; ++b) {
     if (named[b] >= 0) {
       out.partner[b] = named[b];
@@ -106,9 +106,9 @@ BonePairs pair_bones(const Vector<Vec3>& heads, const Vector<Index>& named, cons
       continue;
     }
     rest.push_back(static_cast<Index>(b));
-    boxes.push_back(ItemBox::of(heads[b]));
+    boxes.push_back(mesh::ItemBox::of(heads[b]));
   }
-  const BoxTree tree(boxes, memory);
+  const mesh::BoxTree tree(boxes, memory);
   // The nearest bone without a partner to the reflection of each; of equal ones itself, then the lowest number.
   Vector<Index> nearest(count, -1, &memory);
   for (const Index b : rest) {
@@ -147,4 +147,4 @@ BonePairs pair_bones(const Vector<Vec3>& heads, const Vector<Index>& named, cons
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

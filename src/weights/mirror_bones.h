@@ -2,7 +2,7 @@
 #pragma once
 #include "weights/mirror_plane.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // How a bone found its partner.
 enum class PairedBy : std::uint8_t {
@@ -26,6 +26,6 @@ Vector<Index> pair_names(Span<const char> names, std::size_t count, Memory& memo
 
 // named: what pair_names found, with partners that the caller gave. given: by bone, 1 where the caller gave it.
 BonePairs pair_bones(const Vector<Vec3>& heads, const Vector<Index>& named, const Vector<std::uint8_t>& given,
-                     const MirrorPlane& plane, Memory& memory);
+                     const mesh::MirrorPlane& plane, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -8,7 +8,7 @@
 #include "mesh/nearest_triangle.h"
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 struct PointPair {
@@ -19,7 +19,7 @@ Vec3 column_of(const Mat3& axes, int c) noexcept { return {axes(0, c), axes(1, c
 
 // Makes the largest component of the normal positive. A normal that is an axis up to the rounding of an exporter
 // becomes that axis.
-void settle(MirrorPlane& plane) noexcept {
+void settle(mesh::MirrorPlane& plane) noexcept {
   double n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
   const int most =
       static_cast<int>(std::max_element(n, n + 3, [](double a, double b) { return std::fabs(a) < std::fabs(b); }) - n);
@@ -33,7 +33,7 @@ void settle(MirrorPlane& plane) noexcept {
 
 // The plane with the least sum of squared distances between the reflected p and q. Count p and q from the middle of all
 // points. The normal is the eigenvector of the least eigenvalue of the symmetric part of sum p q'.
-MirrorPlane fit_plane(const Vector<PointPair>& pairs) {
+mesh::MirrorPlane fit_plane(const Vector<PointPair>& pairs) {
   Vec3 middle;
   const double share = 0.5 / static_cast<double>(pairs.size());
   for (const PointPair& pair : pairs) middle = middle + share * (pair.p + pair.q);
@@ -45,14 +45,14 @@ MirrorPlane fit_plane(const Vector<PointPair>& pairs) {
       for (int c = 0; c < 3; ++c) moment(r, c) += 0.5 * (a[r] * b[c] + b[r] * a[c]);
     }
   }
-  MirrorPlane plane;
+  mesh::MirrorPlane plane;
   plane.normal = column_of(principal_axes(moment).axes, 2);
   settle(plane);
   plane.offset = dot(plane.normal, middle);
   return plane;
 }
 
-double mean_miss(const Vector<PointPair>& pairs, const MirrorPlane& plane) noexcept {
+double mean_miss(const Vector<PointPair>& pairs, const mesh::MirrorPlane& plane) noexcept {
   double sum = 0;
   for (const PointPair& pair : pairs) sum += norm(plane.reflect(pair.p) - pair.q);
   return sum / static_cast<double>(pairs.size());
@@ -61,13 +61,13 @@ double mean_miss(const Vector<PointPair>& pairs, const MirrorPlane& plane) noexc
 // The surface as a set of points and a tree of its triangles.
 class Symmetry {
  public:
-  Symmetry(const Core& core, Memory& memory)
+  Symmetry(const surface::Core& core, Memory& memory)
       : mesh_(core.mesh), memory_(memory), tree_(core.mesh.positions, core.mesh.corners, memory), sample_(&memory) {
     const std::size_t n = at(core.size()), step = std::max<std::size_t>(1, n / most_mirror_samples);
     for (std::size_t v = 0; v < n; v += step) sample_.push_back(mesh_.positions[v]);
   }
   // The samples with the nearest points of the surface to their reflections. Far ones are left out.
-  Vector<PointPair> pairs(const MirrorPlane& plane, double& score) const {
+  Vector<PointPair> pairs(const mesh::MirrorPlane& plane, double& score) const {
     Vector<PointPair> out(&memory_);
     score = 0;
     Poller poller(samples_per_poll);
@@ -102,15 +102,15 @@ class Symmetry {
   }
 
  private:
-  const Mesh& mesh_;
+  const mesh::Mesh& mesh_;
   Memory& memory_;
-  const NearestTriangle tree_;
+  const mesh::NearestTriangle tree_;
   Vector<Vec3> sample_;
 };
 
 }  // namespace
 
-bool plane_of_bones(const Vector<Vec3>& heads, const Vector<Index>& partner, MirrorPlane& plane, Memory& memory) {
+bool plane_of_bones(const Vector<Vec3>& heads, const Vector<Index>& partner, mesh::MirrorPlane& plane, Memory& memory) {
   Vector<PointPair> pairs(&memory);
   for (std::size_t b = 0; b < heads.size(); ++b) {
     const Index other = partner[b];
@@ -118,21 +118,21 @@ bool plane_of_bones(const Vector<Vec3>& heads, const Vector<Index>& partner, Mir
     pairs.push_back({heads[b], heads[at(other)]});
   }
   if (pairs.empty()) return false;
-  MirrorPlane found = fit_plane(pairs);
+  mesh::MirrorPlane found = fit_plane(pairs);
   if (!(mean_miss(pairs, found) <= bones_mirror)) return false;
-  found.from = PlaneFrom::bones;
+  found.from = mesh::PlaneFrom::bones;
   plane = found;
   return true;
 }
 
-MirrorPlane plane_of_surface(const Core& core, Memory& memory) {
+mesh::MirrorPlane plane_of_surface(const surface::Core& core, Memory& memory) {
   const Symmetry shape(core, memory);
   const Vec3 centre = shape.centre();
   Mat3 axes = principal_axes(shape.moments(centre)).axes;
-  MirrorPlane best;
+  mesh::MirrorPlane best;
   double best_score = HUGE_VAL;
   for (int candidate = 0; candidate < 6; ++candidate) {
-    MirrorPlane plane;
+    mesh::MirrorPlane plane;
     if (candidate < 3) {
       // The middle of the box is the origin of the inner frame.
       plane.normal = {candidate == 0 ? 1.0 : 0.0, candidate == 1 ? 1.0 : 0.0, candidate == 2 ? 1.0 : 0.0};
@@ -144,7 +144,7 @@ MirrorPlane plane_of_surface(const Core& core, Memory& memory) {
     double score = 0;
     Vector<PointPair> pairs = shape.pairs(plane, score);
     for (int step = 0; step < mirror_steps && !pairs.empty(); ++step) {
-      const MirrorPlane next = fit_plane(pairs);
+      const mesh::MirrorPlane next = fit_plane(pairs);
       double next_score = 0;
       Vector<PointPair> next_pairs = shape.pairs(next, next_score);
       if (!(next_score < mirror_gain * score)) break;
@@ -158,8 +158,8 @@ MirrorPlane plane_of_surface(const Core& core, Memory& memory) {
       best_score = score;
     }
   }
-  best.from = PlaneFrom::surface;
+  best.from = mesh::PlaneFrom::surface;
   return best;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -5,7 +5,7 @@
 
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 constexpr std::size_t directions = 26;  // to the sides, edges and corners of a cube
@@ -19,7 +19,7 @@ Vec3 place_on(const BoneSegment& s, std::size_t place) noexcept {
 class Around {
  public:
   // tree: of the boxes of the pieces.
-  Around(const SkinShape& skin, const Vector<ItemBox>& boxes, const BoxTree& tree, Memory& memory)
+  Around(const mesh::SkinShape& skin, const Vector<mesh::ItemBox>& boxes, const mesh::BoxTree& tree, Memory& memory)
       : skin_(skin), boxes_(boxes), tree_(tree), near_(&memory), count_(&memory), hit_(&memory) {
     for (int i = 0; i < 27; ++i) {
       if (i == 13) continue;  // the middle of the cube
@@ -35,7 +35,7 @@ class Around {
     tree_.near(
         p, [] { return 0.0; },
         [&](Index piece) {
-          const ItemBox& box = boxes_[at(piece)];
+          const mesh::ItemBox& box = boxes_[at(piece)];
           near_.push_back(piece);
           length = std::max(length, 1.01 * norm(box.high - box.low));
         });
@@ -57,9 +57,9 @@ class Around {
   }
 
  private:
-  const SkinShape& skin_;
-  const Vector<ItemBox>& boxes_;
-  const BoxTree& tree_;
+  const mesh::SkinShape& skin_;
+  const Vector<mesh::ItemBox>& boxes_;
+  const mesh::BoxTree& tree_;
   Vec3 way_[directions];
   Vector<Index> near_;
   Vector<std::size_t> count_;  // of rays that meet each of near_
@@ -72,13 +72,13 @@ struct Entry {
 
 }  // namespace
 
-Vector<ItemBox> piece_boxes(const Mesh& mesh, Memory& memory) {
-  Vector<ItemBox> out(at(mesh.component_count()), &memory);
+Vector<mesh::ItemBox> piece_boxes(const mesh::Mesh& mesh, Memory& memory) {
+  Vector<mesh::ItemBox> out(at(mesh.component_count()), &memory);
   Vector<std::uint8_t> seen(out.size(), 0, &memory);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const std::size_t c = at(mesh.component[at(v)]);
     if (!seen[c]) {
-      out[c] = ItemBox::of(mesh.positions[at(v)]);
+      out[c] = mesh::ItemBox::of(mesh.positions[at(v)]);
       seen[c] = 1;
     }
     out[c].take(mesh.positions[at(v)]);
@@ -86,11 +86,11 @@ Vector<ItemBox> piece_boxes(const Mesh& mesh, Memory& memory) {
   return out;
 }
 
-PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments,
+PieceBones find_piece_bones(const mesh::Mesh& mesh, const mesh::SkinShape& skin, const Vector<BoneSegment>& segments,
                             Memory& memory, JobRunner& jobs) {
   const std::size_t places = segments.size() * places_a_bone;
-  const Vector<ItemBox> boxes = piece_boxes(mesh, memory);
-  const BoxTree tree(boxes, memory);
+  const Vector<mesh::ItemBox> boxes = piece_boxes(mesh, memory);
+  const mesh::BoxTree tree(boxes, memory);
   Vector<Vector<Index>> around(places, Vector<Index>(&memory), &memory);
   for_ranges(jobs, places, place_piece, [&](std::size_t begin, std::size_t end) {
     Around search(skin, boxes, tree, memory);
@@ -128,4 +128,4 @@ PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vecto
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -4,7 +4,7 @@
 #include "mesh/box_tree.h"
 #include "weights/skeleton.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // A bone of which a piece holds a part.
 struct HeldBone {
@@ -25,10 +25,10 @@ struct PieceBones {
 };
 
 // Returns the box of every piece.
-Vector<ItemBox> piece_boxes(const Mesh& mesh, Memory& memory);
+Vector<mesh::ItemBox> piece_boxes(const mesh::Mesh& mesh, Memory& memory);
 
 // Finds the bones of every piece, by number.
-PieceBones find_piece_bones(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments,
+PieceBones find_piece_bones(const mesh::Mesh& mesh, const mesh::SkinShape& skin, const Vector<BoneSegment>& segments,
                             Memory& memory, JobRunner& jobs);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -7,25 +7,23 @@
 #include "weights/constants.h"
 #include "weights/piece_bones.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 // The nearest place of a piece.
 struct Near {
   double squared = HUGE_VAL;
   Index piece = -1, vertex = -1;
-  bool operator<(const Near& b) const noexcept {
-    return squared != b.squared ? squared < b.squared : piece < b.piece;
-  }
+  bool operator<(const Near& b) const noexcept { return squared != b.squared ? squared < b.squared : piece < b.piece; }
 };
 
 // Triangles by piece, and the boxes of the pieces.
 class Finder {
  public:
-  Finder(const Mesh& mesh, Memory& memory)
+  Finder(const mesh::Mesh& mesh, Memory& memory)
       : mesh_(mesh),
-        triangles_(triangle_boxes(mesh.positions, mesh.corners, memory), groups(mesh, memory), mesh.component_count(),
-                   memory),
+        triangles_(mesh::triangle_boxes(mesh.positions, mesh.corners, memory), groups(mesh, memory),
+                   mesh.component_count(), memory),
         pieces_(piece_boxes(mesh, memory), memory) {}
 
   // The nearest pieces but `own`, ascending; places left over have no piece.
@@ -44,8 +42,8 @@ class Finder {
           [&](Index t) {
             const Index* v = mesh_.triangle(t);
             double weight[3];
-            const double squared = squared_to_triangle(p, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
-                                                       mesh_.positions[at(v[2])], weight);
+            const double squared = mesh::squared_to_triangle(p, mesh_.positions[at(v[0])], mesh_.positions[at(v[1])],
+                                                             mesh_.positions[at(v[2])], weight);
             if (!(squared < found.squared)) return;
             found.squared = squared;
             found.vertex = v[std::max_element(weight, weight + 3) - weight];
@@ -58,18 +56,18 @@ class Finder {
   }
 
  private:
-  static Vector<Index> groups(const Mesh& mesh, Memory& memory) {
+  static Vector<Index> groups(const mesh::Mesh& mesh, Memory& memory) {
     Vector<Index> out(&memory);
     for (Index t = 0; t < mesh.triangle_count(); ++t) out.push_back(mesh.component[at(mesh.triangle(t)[0])]);
     return out;
   }
-  const Mesh& mesh_;
-  BoxTree triangles_, pieces_;
+  const mesh::Mesh& mesh_;
+  mesh::BoxTree triangles_, pieces_;
 };
 
 // Every vertex of the marked pieces. On large pieces every second, third, ... vertex by its distance from the middle.
 // The choice depends neither on the order of the vertices nor on the axes.
-Vector<Index> sample(const Mesh& mesh, const Vector<std::uint8_t>& marked, Memory& memory) {
+Vector<Index> sample(const mesh::Mesh& mesh, const Vector<std::uint8_t>& marked, Memory& memory) {
   struct Member {
     Index piece, vertex;
     double squared;
@@ -107,13 +105,13 @@ Vector<Index> sample(const Mesh& mesh, const Vector<std::uint8_t>& marked, Memor
 
 }  // namespace
 
-PieceContacts::PieceContacts(const Core& core, const Vector<std::uint8_t>& marked, Memory& memory)
+PieceContacts::PieceContacts(const surface::Core& core, const Vector<std::uint8_t>& marked, Memory& memory)
     : all(&memory),
       from_start_(marked.size() + 1, 0, &memory),
       from_(&memory),
       to_start_(marked.size() + 1, 0, &memory),
       to_(&memory) {
-  const Mesh& mesh = core.mesh;
+  const mesh::Mesh& mesh = core.mesh;
   const Finder finder(mesh, memory);
   const Vector<Index> samples = sample(mesh, marked, memory);
   struct Row {
@@ -144,4 +142,4 @@ PieceContacts::PieceContacts(const Core& core, const Vector<std::uint8_t>& marke
   sort([&](const PieceContact& contact) { return mesh.component[at(contact.vertex)]; }, to_start_, to_);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -5,14 +5,14 @@
 
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 // Vertices with a tree over them.
 class Cloud {
  public:
   template <class Takes>
-  Cloud(const Mesh& mesh, Memory& memory, Takes&& takes)
+  Cloud(const mesh::Mesh& mesh, Memory& memory, Takes&& takes)
       : mesh_(mesh), vertices_(&memory), tree_(collect(takes, memory), memory) {}
   bool empty() const noexcept { return vertices_.empty(); }
   // The nearest vertex; among equal ones the lowest number.
@@ -34,19 +34,19 @@ class Cloud {
 
  private:
   template <class Takes>
-  Vector<ItemBox> collect(Takes&& takes, Memory& memory) {
-    Vector<ItemBox> boxes(&memory);
+  Vector<mesh::ItemBox> collect(Takes&& takes, Memory& memory) {
+    Vector<mesh::ItemBox> boxes(&memory);
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       if (takes(v)) {
         vertices_.push_back(v);
-        boxes.push_back(ItemBox::of(mesh_.positions[at(v)]));
+        boxes.push_back(mesh::ItemBox::of(mesh_.positions[at(v)]));
       }
     }
     return boxes;
   }
-  const Mesh& mesh_;
+  const mesh::Mesh& mesh_;
   Vector<Index> vertices_;
-  BoxTree tree_;
+  mesh::BoxTree tree_;
 };
 
 Vec3 clamped(const Vec3& p) noexcept {
@@ -56,7 +56,7 @@ Vec3 clamped(const Vec3& p) noexcept {
 
 }  // namespace
 
-Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Memory& memory, JobRunner& jobs) {
+Carriers find_carriers(const mesh::Mesh& mesh, const Vector<std::uint8_t>& solved, Memory& memory, JobRunner& jobs) {
   const std::size_t n = at(mesh.vertex_count()), pieces = solved.size();
   Carriers out(memory);
   out.of.assign(n, -1);
@@ -71,12 +71,12 @@ Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Mem
       if (out.of[v] < 0) out.of[v] = cloud.nearest(mesh.positions[v]);
     }
   });
-  Vector<ItemBox> box(pieces, &memory);
+  Vector<mesh::ItemBox> box(pieces, &memory);
   Vector<std::uint8_t> seen(pieces, 0, &memory);
   for (std::size_t v = 0; v < n; ++v) {
     const std::size_t c = at(mesh.component[v]);
     if (!seen[c]) {
-      box[c] = ItemBox::of(mesh.positions[v]);
+      box[c] = mesh::ItemBox::of(mesh.positions[v]);
       seen[c] = 1;
     }
     box[c].take(mesh.positions[v]);
@@ -90,16 +90,16 @@ Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Mem
   return out;
 }
 
-Vector<Index> nearest_of_isolated(const Mesh& mesh, Memory& memory) {
+Vector<Index> nearest_of_isolated(const mesh::Mesh& mesh, Memory& memory) {
   Vector<Index> out(&memory);
   if (mesh.isolated.empty()) return out;
   const Cloud cloud(mesh, memory, [](Index) { return true; });
   Poller poller;
-  for (const Mesh::Isolated& vertex : mesh.isolated) {
+  for (const mesh::Mesh::Isolated& vertex : mesh.isolated) {
     poller.due();
     out.push_back(cloud.nearest(clamped(mesh.to_inner(vertex.position))));
   }
   return out;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

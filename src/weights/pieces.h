@@ -2,7 +2,7 @@
 #pragma once
 #include "weights/weights.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 struct Carriers {
   explicit Carriers(Memory& memory) : of(&memory), rigid(&memory) {}
@@ -12,8 +12,8 @@ struct Carriers {
 };
 
 // solved: by piece, whether its weights were solved. Without any solved piece no carrier is set (-1).
-Carriers find_carriers(const Mesh& mesh, const Vector<std::uint8_t>& solved, Memory& memory, JobRunner& jobs);
+Carriers find_carriers(const mesh::Mesh& mesh, const Vector<std::uint8_t>& solved, Memory& memory, JobRunner& jobs);
 // The inner vertex nearest to each isolated vertex.
-Vector<Index> nearest_of_isolated(const Mesh& mesh, Memory& memory);
+Vector<Index> nearest_of_isolated(const mesh::Mesh& mesh, Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -8,11 +8,11 @@
 #include "mesh/geodesic_disc.h"
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
-PinSites::PinSites(const Pins& pins, const Core& core, Memory& memory) : sites(&memory), pin(&memory) {
+PinSites::PinSites(const Pins& pins, const surface::Core& core, Memory& memory) : sites(&memory), pin(&memory) {
   Vector<Index> owner(at(core.size()), -1, &memory);
-  const auto add = [&](const Site& site, Index p) {
+  const auto add = [&](const solve::Site& site, Index p) {
     if (site.is_vertex()) {
       Index& there = owner[at(site.vertex[0])];
       if (there >= 0)
@@ -24,30 +24,31 @@ PinSites::PinSites(const Pins& pins, const Core& core, Memory& memory) : sites(&
     pin.push_back(p);
   };
   for (std::size_t p = 0; p < pins.count(); ++p) {
-    const Site& place = pins.places[p];
+    const solve::Site& place = pins.places[p];
     if (!(pins.radius[p] > 0)) {
       add(place, static_cast<Index>(p));
       continue;
     }
-    for (const DiscVertex& v :
-         geodesic_disc(core.mesh, core.topology(), place.vertex, place.weight, pins.radius[p], memory))
-      add(Site::at_vertex(core.mesh, v.vertex), static_cast<Index>(p));
+    for (const mesh::DiscVertex& v :
+         mesh::geodesic_disc(core.mesh, core.topology(), place.vertex, place.weight, pins.radius[p], memory))
+      add(solve::Site::at_vertex(core.mesh, v.vertex), static_cast<Index>(p));
     if (sites.empty() || pin.back() != static_cast<Index>(p)) add(place, static_cast<Index>(p));
   }
 }
 
 bool PinSites::operator==(const PinSites& other) const noexcept {
   return pin == other.pin &&
-         std::equal(sites.begin(), sites.end(), other.sites.begin(), [](const Site& a, const Site& b) {
+         std::equal(sites.begin(), sites.end(), other.sites.begin(), [](const solve::Site& a, const solve::Site& b) {
            return std::equal(a.vertex, a.vertex + 3, b.vertex) && std::equal(a.weight, a.weight + 3, b.weight);
          });
 }
 
 namespace {
 
-std::shared_ptr<const ConstraintSystem> make_system(const ScreenedOperator& screened, const PinSites& pins) {
+std::shared_ptr<const solve::ConstraintSystem> make_system(const solve::ScreenedOperator& screened,
+                                                           const PinSites& pins) {
   Memory& memory = *screened.core->memory;
-  const auto system = make_shared_in<ConstraintSystem>(memory, screened.view());
+  const auto system = make_shared_in<solve::ConstraintSystem>(memory, screened.view());
   Vector<Index> slots(pins.sites.size(), &memory);
   std::iota(slots.begin(), slots.end(), 0);
   try {
@@ -72,7 +73,7 @@ double share_of(const Pins& pins, std::size_t pin, Index bone) noexcept {
 
 std::shared_ptr<const PinnedField> PinnedField::make(std::shared_ptr<const Solution> solution, const Pins& pins,
                                                      const PinnedField* before) {
-  const Core& core = *solution->surface->core;
+  const surface::Core& core = *solution->surface->core;
   Memory& memory = *core.memory;
   const auto made = make_owner_in<PinnedField>(core.memory, memory);
   made->sites = PinSites(pins, core, memory);
@@ -95,7 +96,7 @@ std::shared_ptr<const PinnedField> PinnedField::make(std::shared_ptr<const Solut
     if (old < 0 && !pinned[b]) continue;
     bool misses = false;
     for (std::size_t s = 0; s < sites; ++s) {
-      const Site& site = made->sites.sites[s];
+      const solve::Site& site = made->sites.sites[s];
       double present = 0;
       for (int k = 0; k < 3 && old >= 0; ++k) {
         if (site.vertex[k] >= 0) present += site.weight[k] * solution->field[at(site.vertex[k]) * width + at(old)];
@@ -125,4 +126,4 @@ std::shared_ptr<const PinnedField> PinnedField::make(std::shared_ptr<const Solut
   return made;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

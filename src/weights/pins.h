@@ -2,7 +2,7 @@
 #pragma once
 #include "weights/solution.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 struct Pins {
   explicit Pins(Memory& memory)
@@ -14,9 +14,9 @@ struct Pins {
         bone(other.bone, &memory),
         share(other.share, &memory) {}
   std::size_t count() const noexcept { return places.size(); }
-  Vector<Site> places;    // hard; a vertex, or a point in a triangle
-  Vector<double> radius;  // of the disc around the place, inner unit; 0: the place alone
-  Vector<Index> start;    // of the bones of each pin, one more
+  Vector<solve::Site> places;  // hard; a vertex, or a point in a triangle
+  Vector<double> radius;       // of the disc around the place, inner unit; 0: the place alone
+  Vector<Index> start;         // of the bones of each pin, one more
   Vector<Index> bone;
   Vector<double> share;  // of sum 1
 };
@@ -25,9 +25,9 @@ struct Pins {
 struct PinSites {
   explicit PinSites(Memory& memory) : sites(&memory), pin(&memory) {}
   // Throws HF_ERROR_DUPLICATE (index = pin) if two pins share a vertex.
-  PinSites(const Pins& pins, const Core& core, Memory& memory);
+  PinSites(const Pins& pins, const surface::Core& core, Memory& memory);
   bool operator==(const PinSites& other) const noexcept;
-  Vector<Site> sites;
+  Vector<solve::Site> sites;
   Vector<Index> pin;  // by site
 };
 
@@ -39,11 +39,11 @@ struct PinnedField {
                                                  const PinnedField* before);
   std::shared_ptr<const Solution> solution;  // keeps the operator of the system
   PinSites sites;
-  std::shared_ptr<const ConstraintSystem> system;
+  std::shared_ptr<const solve::ConstraintSystem> system;
   Vector<Index> bone_of;                              // bones of the columns
   Vector<Index> column_of;                            // by bone, or -1: as in the solution
   Buffer<double> field;                               // [vertex][bone_of]
   std::uint32_t path_solves = 0, factorisations = 0;  // of this edit
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

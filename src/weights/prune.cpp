@@ -6,7 +6,7 @@
 #include "base/unit_weights.h"
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 bool before(const Share& a, const Share& b) noexcept {
@@ -69,4 +69,4 @@ void write_influences(Vector<Share>& shares, const Vector<Share>& locked, bool s
   }
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

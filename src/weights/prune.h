@@ -3,7 +3,7 @@
 #include "base/index.h"
 #include "base/memory.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 constexpr std::int32_t most_influences = 8;
 
@@ -18,4 +18,4 @@ struct Share {
 void write_influences(Vector<Share>& shares, const Vector<Share>& locked, bool small_drop, std::int32_t count,
                       std::uint32_t* joints, float* weights);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

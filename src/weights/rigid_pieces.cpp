@@ -8,13 +8,13 @@
 #include "weights/piece_bones.h"
 #include "weights/piece_contacts.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
 // The data of a piece before a bone is chosen.
 struct Shape {
   double area = 0;
-  ItemBox box;
+  mesh::ItemBox box;
   bool solid = false;
 };
 
@@ -28,8 +28,8 @@ enum class Kind { other, robot, creature };
 
 // The families of the bones that pieces hold: each belongs to the next one above that a piece holds. Without
 // parents all are one family.
-UnionFind bone_families(const Bones& bones, const Vector<std::uint8_t>& held, Memory& memory) {
-  UnionFind out(held.size(), memory);
+mesh::UnionFind bone_families(const Bones& bones, const Vector<std::uint8_t>& held, Memory& memory) {
+  mesh::UnionFind out(held.size(), memory);
   const bool has_parents =
       std::any_of(bones.parent.begin(), bones.parent.end(), [](Index parent) { return parent >= 0; });
   constexpr Index unknown = -2;
@@ -71,8 +71,8 @@ class RigidPieces {
 
  private:
   const Solution& solution_;
-  const Core& core_;
-  const Mesh& mesh_;
+  const surface::Core& core_;
+  const mesh::Mesh& mesh_;
   Memory& memory_;
 
  public:
@@ -92,7 +92,7 @@ class RigidPieces {
   Vector<std::uint8_t> find_bending(const Bones& bones) const {
     Vector<std::uint8_t> held(bones.head.size(), 0, &memory_), out(column.size(), 0, &memory_);
     for (const HeldBone& h : held_.bones) held[at(h.bone)] |= is_held(h);
-    UnionFind families = bone_families(bones, held, memory_);
+    mesh::UnionFind families = bone_families(bones, held, memory_);
     Vector<Index> size(held.size(), 0, &memory_), own(held.size(), 0, &memory_);
     for (Index b = 0; b < bones.count(); ++b) size[at(families.find(b))] += held[at(b)];
     for (std::size_t c = 0; c < out.size(); ++c) {
@@ -108,8 +108,8 @@ class RigidPieces {
   }
 
   void measure() {
-    const Vector<double> openness = component_openness(mesh_, memory_);
-    const Vector<ItemBox> boxes = piece_boxes(mesh_, memory_);
+    const Vector<double> openness = mesh::component_openness(mesh_, memory_);
+    const Vector<mesh::ItemBox> boxes = piece_boxes(mesh_, memory_);
     for (std::size_t c = 0; c < shapes_.size(); ++c) {
       shapes_[c].box = boxes[c];
       shapes_[c].solid = openness[c] <= solid_openness;
@@ -148,7 +148,7 @@ class RigidPieces {
 
   // The column of the bone that a piece of a robot holds, or -1. mean: its smooth weights by column.
   Index own_column(std::size_t piece, const Vector<double>& mean) const {
-    const ItemBox& box = shapes_[piece].box;
+    const mesh::ItemBox& box = shapes_[piece].box;
     const Vec3 middle = 0.5 * (box.low + box.high);
     const double near = joint_reach * norm(box.high - box.low);
     Index longest = -1, joint = -1;
@@ -299,7 +299,7 @@ class RigidPieces {
 }  // namespace
 
 Vector<Index> rigid_columns(const Solution& solution, const Bones& bones, const Vector<BoneSegment>& segments) {
-  const Mesh& mesh = solution.surface->core->mesh;
+  const mesh::Mesh& mesh = solution.surface->core->mesh;
   if (mesh.component_count() < 2)
     return Vector<Index>(at(mesh.component_count()), -1, solution.surface->core->memory.get());
   RigidPieces pieces(solution, bones, segments);
@@ -307,4 +307,4 @@ Vector<Index> rigid_columns(const Solution& solution, const Bones& bones, const 
   return std::move(pieces.column);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -8,9 +8,9 @@
 #pragma once
 #include "weights/solution.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // By piece: the column of the solution whose bone it takes, or -1 where the smooth weights stay.
 Vector<Index> rigid_columns(const Solution& solution, const Bones& bones, const Vector<BoneSegment>& segments);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

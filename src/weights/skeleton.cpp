@@ -7,10 +7,10 @@
 #include "base/progress.h"
 #include "weights/constants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 namespace {
 
-Vec3 place_of(const Mesh& mesh, const Vec3& given) noexcept {
+Vec3 place_of(const mesh::Mesh& mesh, const Vec3& given) noexcept {
   const Vec3 p = mesh.to_inner(given);
   const auto clamped = [](double x) { return std::min(std::max(x, -farthest), farthest); };
   return {clamped(p.x), clamped(p.y), clamped(p.z)};
@@ -19,7 +19,7 @@ Vec3 place_of(const Mesh& mesh, const Vec3& given) noexcept {
 // Finds where joints end that have no tails.
 class Tails {
  public:
-  Tails(const Bones& bones, const Mesh& mesh, const SkinShape& skin, Memory& memory)
+  Tails(const Bones& bones, const mesh::Mesh& mesh, const mesh::SkinShape& skin, Memory& memory)
       : head(&memory), bones_(bones), skin_(skin), first_child_(&memory), first_end_(&memory), next_(&memory) {
     const std::size_t count = bones.head.size();
     for (const Vec3& p : bones.head) head.push_back(place_of(mesh, p));
@@ -161,7 +161,7 @@ class Tails {
   }
 
   const Bones& bones_;
-  const SkinShape& skin_;
+  const mesh::SkinShape& skin_;
   // Lists of children that do not lie on their parent: those that deform, and others, which say where leaves end.
   Vector<Index> first_child_, first_end_, next_;
   double typical_ = 1;
@@ -170,7 +170,8 @@ class Tails {
 
 }  // namespace
 
-Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const SkinShape& skin, Memory& memory) {
+Vector<BoneSegment> bone_segments(const Bones& bones, const mesh::Mesh& mesh, const mesh::SkinShape& skin,
+                                  Memory& memory) {
   Vector<BoneSegment> out(&memory);
   if (!bones.has_tails) {
     const Tails tails(bones, mesh, skin, memory);
@@ -187,7 +188,7 @@ Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const Sk
   return out;
 }
 
-Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segments, const SkinShape& skin,
+Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segments, const mesh::SkinShape& skin,
                                   Memory& memory) {
   Vector<std::uint32_t> faults(at(count), 0, &memory);
   Vector<std::uint8_t> is_inside(at(count), 0, &memory), is_long(at(count), 0, &memory), exists(at(count), 0, &memory);
@@ -219,4 +220,4 @@ Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segmen
   return faults;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

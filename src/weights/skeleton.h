@@ -4,7 +4,7 @@
 #include "mesh/mesh.h"
 #include "mesh/skin_shape.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // A bone that deforms.
 struct BoneSegment {
@@ -39,9 +39,10 @@ enum BoneFault : std::uint32_t {
 };
 
 // Makes the segments of the bones that deform, by number. Bones without tails get them from their children or the skin.
-Vector<BoneSegment> bone_segments(const Bones& bones, const Mesh& mesh, const SkinShape& skin, Memory& memory);
+Vector<BoneSegment> bone_segments(const Bones& bones, const mesh::Mesh& mesh, const mesh::SkinShape& skin,
+                                  Memory& memory);
 // The faults that show without a solve: no length, coincident, outside.
-Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segments, const SkinShape& skin,
+Vector<std::uint32_t> bone_faults(Index count, const Vector<BoneSegment>& segments, const mesh::SkinShape& skin,
                                   Memory& memory);
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

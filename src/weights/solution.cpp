@@ -6,9 +6,9 @@
 #include "weights/constants.h"
 #include "weights/rigid_pieces.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
-SkinSurface::SkinSurface(std::shared_ptr<const Core> harmonic)
+SkinSurface::SkinSurface(std::shared_ptr<const surface::Core> harmonic)
     : core(std::move(harmonic)), skin(core->mesh, *core->memory) {}
 
 Solution::Solution(std::shared_ptr<const SkinSurface> shape)
@@ -26,7 +26,7 @@ constexpr float progress_informed = 0.3f, progress_factorised = 0.5f;
 
 // Returns the screening H by vertex. On pieces where A H is so small that rounding would lose it beside K, H is scaled
 // up.
-Vector<double> visible_screening(const Core& core, const Informants& informants) {
+Vector<double> visible_screening(const surface::Core& core, const Informants& informants) {
   const std::size_t pieces = at(core.mesh.component_count());
   Vector<double> mass(pieces, 0.0, core.memory.get());
   Vector<double> out(informants.screening.begin(), informants.screening.end(), core.memory.get());
@@ -40,7 +40,7 @@ Vector<double> visible_screening(const Core& core, const Informants& informants)
 }
 
 // Areas of needles can be 0, so that a piece has information but no mass. Its vertices lose their information.
-void drop_massless(const Core& core, Informants& informants) {
+void drop_massless(const surface::Core& core, Informants& informants) {
   Vector<double> mass(at(core.mesh.component_count()), 0.0, core.memory.get());
   for (std::size_t v = 0; v < informants.screening.size(); ++v)
     mass[at(core.mesh.component[v])] += core.areas[v] * informants.screening[v];
@@ -54,14 +54,14 @@ void drop_massless(const Core& core, Informants& informants) {
   }
 }
 
-std::shared_ptr<const ScreenedOperator> factorise(const std::shared_ptr<const Core>& core,
-                                                  const Informants& informants) {
+std::shared_ptr<const solve::ScreenedOperator> factorise(const std::shared_ptr<const surface::Core>& core,
+                                                         const Informants& informants) {
   const Vector<double> screening = visible_screening(*core, informants);
   for (std::size_t i = 0;; ++i) {
-    ScreenedOptions options;
+    solve::ScreenedOptions options;
     options.least_weight = weight_floors[i];
     try {
-      return ScreenedOperator::make(core, screening, options);
+      return solve::ScreenedOperator::make(core, screening, options);
     } catch (const Error& error) {
       if (error.code() != HF_ERROR_NOT_POSITIVE_DEFINITE || i + 1 == std::size(weight_floors)) throw;
     }
@@ -71,7 +71,7 @@ std::shared_ptr<const ScreenedOperator> factorise(const std::shared_ptr<const Co
 // Gives pieces one bone. column: by piece, or -1 where the weights stay.
 void make_rigid(Solution& made, const Vector<Index>& column) {
   const std::size_t width = made.width();
-  const Mesh& mesh = made.surface->core->mesh;
+  const mesh::Mesh& mesh = made.surface->core->mesh;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Index own = column[at(mesh.component[at(v)])];
     if (own < 0) continue;
@@ -84,12 +84,12 @@ void make_rigid(Solution& made, const Vector<Index>& column) {
 }  // namespace
 
 std::shared_ptr<const Solution> Solution::make(std::shared_ptr<const SkinSurface> shape, const Bones& bones) {
-  const std::shared_ptr<const Core> core = shape->core;
+  const std::shared_ptr<const surface::Core> core = shape->core;
   Memory& memory = *core->memory;
   if (std::find(bones.deforms.begin(), bones.deforms.end(), 1) == bones.deforms.end())
     fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no joint deforms; set deforms of at least one to 1");
   const auto made = make_owner_in<Solution>(core->memory, std::move(shape));
-  const SkinShape& skin = made->surface->skin;
+  const mesh::SkinShape& skin = made->surface->skin;
   const Vector<BoneSegment> segments = bone_segments(bones, core->mesh, skin, memory);
   made->faults = bone_faults(bones.count(), segments, skin, memory);
   made->informants = find_informants(core->mesh, skin, segments, memory, *core->jobs);
@@ -129,4 +129,4 @@ std::shared_ptr<const Solution> Solution::make(std::shared_ptr<const SkinSurface
   return made;
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

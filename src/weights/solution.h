@@ -1,15 +1,15 @@
 // The smooth weights of all bones before pins, locks and pruning: one solve of a screened operator.
 #pragma once
-#include "engine/screened.h"
+#include "solve/screened.h"
 #include "weights/informants.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // A surface prepared for weights of any skeleton. Immutable.
 struct SkinSurface {
-  explicit SkinSurface(std::shared_ptr<const Core> harmonic);
-  std::shared_ptr<const Core> core;  // first member: its memory outlives the rest
-  SkinShape skin;
+  explicit SkinSurface(std::shared_ptr<const surface::Core> harmonic);
+  std::shared_ptr<const surface::Core> core;  // first member: its memory outlives the rest
+  mesh::SkinShape skin;
 };
 
 // How the weights of a vertex were found.
@@ -34,10 +34,10 @@ struct Solution {
   Vector<std::uint32_t> faults;                // BoneFault by bone
   Vector<std::uint32_t> informs;               // by bone: vertices that it informs
   Informants informants;
-  std::shared_ptr<const ScreenedOperator> screened;
+  std::shared_ptr<const solve::ScreenedOperator> screened;
   Vector<Index> bone_of;    // bones with information, ascending
   Vector<Index> column_of;  // by bone: its number in bone_of, or -1
   Buffer<double> field;     // [vertex][bone_of]; sums to 1 on pieces with information
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -5,7 +5,7 @@
 #include "mesh/mesh.h"
 #include "weights/prune.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 struct WeightRows {
   explicit WeightRows(Memory& memory) : start(1, 0, &memory), shares(&memory) {}
@@ -37,4 +37,4 @@ struct WeightRows {
   Vector<Share> shares;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

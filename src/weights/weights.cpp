@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/unit_weights.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 Weights::Weights(std::shared_ptr<const SkinSurface> surface, std::int32_t influences, const Bones& bones)
     : surface_(std::move(surface)), influences_(influences) {
@@ -98,4 +98,4 @@ void Weights::set_locks(Span<const Index> bones, const float* values) {
   apply(next);
 }
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

@@ -8,7 +8,7 @@
 #include "weights/pins.h"
 #include "weights/prune.h"
 
-namespace hf_inner {
+namespace hf_inner::weights {
 
 // Weights that stay as they are, in units of weight_units by inner vertex.
 struct Locks {
@@ -77,4 +77,4 @@ class Weights {
   std::shared_ptr<const WeightState> state_;
 };
 
-}  // namespace hf_inner
+}  // namespace hf_inner::weights

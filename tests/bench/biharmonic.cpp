@@ -13,7 +13,7 @@ namespace {
 void solve_eliminated(const InnerSystem& system, const std::vector<uint8_t>& eliminated, std::vector<double>& right) {
   const hf_inner::SymmetricMatrix& k = system.core().laplacian;
   const auto grounded =
-      hf_inner::Factor::make(system.matrix(), system.coordinates(), {}, system.memory(), system.jobs());
+      hf_inner::factor::Factor::make(system.matrix(), system.coordinates(), {}, system.memory(), system.jobs());
   // sites stand in for the grounds: K itself, pattern as it was
   const auto factor = grounded->refactor(k, {eliminated.data(), eliminated.size()}, system.memory(), system.jobs());
   std::vector<double> z(right.size());
@@ -39,8 +39,8 @@ BiharmonicResult biharmonic_refinement(const Mesh& mesh, uint32_t threads) {
     solver.solve(given);
     result.solve_ms = median_ms(3, [&] { solver.solve(given); });
   }
-  const InnerSystem system(mesh, threads, hf_inner::FieldKind::biharmonic);
-  const hf_inner::Mesh& inner = system.core().mesh;
+  const InnerSystem system(mesh, threads, hf_inner::mesh::FieldKind::biharmonic);
+  const hf_inner::mesh::Mesh& inner = system.core().mesh;
   const hf_inner::SymmetricMatrix& k = system.core().laplacian;
   const size_t n = static_cast<size_t>(k.size());
   std::vector<double> u(n), change(n, 0.0);

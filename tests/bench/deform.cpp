@@ -111,13 +111,13 @@ FrameTimes drag(Rig& rig, uint32_t frames, bool refine) {
   return out;
 }
 
-std::shared_ptr<const hf_inner::Core> core_of(const Mesh& mesh, uint32_t threads) {
+std::shared_ptr<const hf_inner::surface::Core> core_of(const Mesh& mesh, uint32_t threads) {
   return hf_test::make_core({mesh.positions, mesh.triangles}, threads);
 }
 
 double arap_iteration_ms(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& regions, const Run& run) {
-  hf_inner::CoreOptions own_edges;  // the oracle's energy is that of the mesh's own edges
-  own_edges.operator_kind = hf_inner::OperatorKind::cotangent;
+  hf_inner::surface::CoreOptions own_edges;  // the oracle's energy is that of the mesh's own edges
+  own_edges.operator_kind = hf_inner::mesh::OperatorKind::cotangent;
   const auto core = hf_test::make_core({mesh.positions, mesh.triangles}, run.threads, own_edges);
   std::vector<uint8_t> fixed(static_cast<size_t>(core->size()), 0);
   for (const auto& region : regions) {
@@ -179,9 +179,9 @@ Exactness exactness(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& 
                     hf_test::DeformMode mode = hf_test::DeformMode::smooth) {
   using hf_inner::Vec3;
   const auto core = core_of(mesh, threads);
-  hf_inner::PoseOptions options;
+  hf_inner::deform::PoseOptions options;
   options.scheme = hf_test::scheme_of(mode);
-  const auto pose = hf_inner::PoseStack::make(core, options);
+  const auto pose = hf_inner::deform::PoseStack::make(core, options);
   const auto add = [&](size_t first, size_t last, uint32_t layer) {
     std::vector<uint32_t> start{0}, numbers(last - first);
     std::vector<int32_t> vertices;
@@ -193,27 +193,27 @@ Exactness exactness(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& 
     return numbers;
   };
   const std::vector<uint32_t> handles = add(0, regions.size() - 1, 0);
-  const auto put = [&](uint32_t handle, const hf_inner::HandleTransform& t) {
+  const auto put = [&](uint32_t handle, const hf_inner::deform::HandleTransform& t) {
     pose->set_transforms({&handle, 1}, {&t, 1});
   };
   const double diagonal = core->mesh.scale;
   Exactness out;
-  const hf_inner::HandleTransform moved{hf_inner::exponential({0.4, 0.2, 0}), {0.1, 0.3, 0}};
+  const hf_inner::deform::HandleTransform moved{hf_inner::deform::exponential({0.4, 0.2, 0}), {0.1, 0.3, 0}};
   put(handles[1], moved);
-  hf_inner::DeformRequest request;
+  hf_inner::deform::DeformRequest request;
   request.normals = true;
-  hf_inner::DeformReport report = pose->deform(request);
+  hf_inner::deform::DeformReport report = pose->deform(request);
   const Vec3 centroid = pose->handle(handles[1]).centroid;
   for (const uint32_t v : regions[1]) {
     const int32_t i = core->mesh.inner_of_given[v];
     const Vec3 p = core->mesh.to_given(core->mesh.positions[i]);
-    const Vec3 target = hf_inner::rotate(moved.rotation, p - centroid) + centroid + moved.translation;
+    const Vec3 target = hf_inner::deform::rotate(moved.rotation, p - centroid) + centroid + moved.translation;
     out.target = std::max(out.target, hf_inner::norm(report.positions[i] - target) / diagonal);
   }
   const uint64_t before = core->memory->allocation_count();
   for (int frame = 0; frame < 1000; ++frame) {
     const double t = std::sin(0.02 * frame);
-    put(handles[1], {hf_inner::exponential({0.4 * t, 0.2, 0}), {0.1, 0.3 * t, 0}});
+    put(handles[1], {hf_inner::deform::exponential({0.4 * t, 0.2, 0}), {0.1, 0.3 * t, 0}});
     request.iteration_count = 1;
     pose->deform(request);
   }
@@ -226,17 +226,17 @@ Exactness exactness(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& 
   for (size_t v = 0; v < settled.size(); ++v)
     out.jump = std::max(out.jump, hf_inner::norm(report.positions[v] - settled[v]) / diagonal);
   pose->remove_handles(fine);
-  const hf_inner::Quaternion turn = hf_inner::exponential({0.3, 0.9, -0.5});
+  const hf_inner::deform::Quaternion turn = hf_inner::deform::exponential({0.3, 0.9, -0.5});
   for (const uint32_t h : handles) {
     const Vec3 c = pose->handle(h).centroid;
-    put(h, {turn, hf_inner::rotate(turn, c) - c + Vec3{1, 2, 3}});
+    put(h, {turn, hf_inner::deform::rotate(turn, c) - c + Vec3{1, 2, 3}});
   }
   request.restart = true;  // every handle has turned as far as the others
   report = pose->deform(request);
   for (int32_t v = 0; v < core->size(); ++v) {
     const Vec3 p = core->mesh.to_given(core->mesh.positions[v]);
-    out.rigid =
-        std::max(out.rigid, hf_inner::norm(report.positions[v] - hf_inner::rotate(turn, p) - Vec3{1, 2, 3}) / diagonal);
+    out.rigid = std::max(
+        out.rigid, hf_inner::norm(report.positions[v] - hf_inner::deform::rotate(turn, p) - Vec3{1, 2, 3}) / diagonal);
   }
   return out;
 }

@@ -121,13 +121,13 @@ Rows run_deform_quality(const Run& run, Report& report) {
     const Case& c = study.scene;
     Dragged d = drag(c, {}, 30, 10, run.threads);
     const std::vector<Vec3> smooth = positions(d.report);
-    hf_inner::DeformRequest request;
+    hf_inner::deform::DeformRequest request;
     request.iteration_count = 1;
     request.refine = true;
     const std::vector<Vec3> refined = positions(d.pose->deform(request));
     std::printf("%s, %d vertices\n", c.name.c_str(), d.core->size());
 
-    hf_inner::PoseOptions options;
+    hf_inner::deform::PoseOptions options;
     options.scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
     Dragged paper = drag(c, options, 30, 10, run.threads);
     const std::vector<Vec3> early = positions(paper.report);
@@ -135,8 +135,8 @@ Rows run_deform_quality(const Run& run, Report& report) {
     const std::vector<Vec3> late = positions(paper.report);
 
     // the oracle from two starts: our pose, and the paper's; its energy is that of the mesh's own edges
-    hf_inner::CoreOptions own_edges;
-    own_edges.operator_kind = hf_inner::OperatorKind::cotangent;
+    hf_inner::surface::CoreOptions own_edges;
+    own_edges.operator_kind = hf_inner::mesh::OperatorKind::cotangent;
     const auto cotangents = hf_test::make_core(c.mesh, run.threads, own_edges);
     std::vector<uint8_t> fixed(static_cast<size_t>(d.core->size()), 0);
     for (const auto& region : c.regions) {

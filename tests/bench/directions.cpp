@@ -29,13 +29,13 @@ struct ConnectionSystem {
 };
 ConnectionSystem connection_system(const Mesh& mesh, const std::vector<uint32_t>& sites) {
   const auto memory = std::make_shared<hf_inner::Memory>();
-  hf_inner::MeshInput input;
+  hf_inner::mesh::MeshInput input;
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   input.positions = {mesh.positions.data(), 3 * sizeof(double)};
   input.triangles = hf_inner::IndexRows(mesh.triangles.data(), 3);
-  const auto core = hf_inner::Core::make(input, {}, memory, std::make_shared<hf_inner::JobRunner>(1));
-  const hf_inner::DirectionSolver solver(core, 1);
+  const auto core = hf_inner::surface::Core::make(input, {}, memory, std::make_shared<hf_inner::JobRunner>(1));
+  const hf_inner::field::DirectionSolver solver(core, 1);
   const hf_inner::SymmetricMatrix& a = solver.matrix();
   ConnectionSystem out;
   for (int32_t v = 0; v < a.size(); ++v) {

@@ -22,13 +22,13 @@ using Order = hf_inner::Buffer<int32_t>;
 
 struct OrderResult {
   double ms = 0;
-  hf_inner::FillEstimate fill;
+  hf_inner::factor::FillEstimate fill;
   json to_json() const { return {{"ms", ms}, {"entries", fill.entries}, {"flops", fill.flops}}; }
 };
 
-double order_ms(const InnerSystem& system, hf_inner::Ordering kind, Order& order) {
+double order_ms(const InnerSystem& system, hf_inner::factor::Ordering kind, Order& order) {
   return time_ms([&] {
-    hf_inner::make_order(system.matrix(), system.coordinates(), kind, system.memory(), system.jobs(), order);
+    hf_inner::factor::make_order(system.matrix(), system.coordinates(), kind, system.memory(), system.jobs(), order);
   });
 }
 
@@ -39,14 +39,14 @@ struct Orderings {
     Order degree_order;
     std::vector<int> amd_order, metis_order;
     for (uint32_t r = 0; r < repetitions; ++r) {
-      own_times.push_back(order_ms(system, hf_inner::Ordering::nested_dissection, own_order));
-      degree_times.push_back(order_ms(system, hf_inner::Ordering::minimum_degree, degree_order));
+      own_times.push_back(order_ms(system, hf_inner::factor::Ordering::nested_dissection, own_order));
+      degree_times.push_back(order_ms(system, hf_inner::factor::Ordering::minimum_degree, degree_order));
       if (!peer) continue;
       amd_times.push_back(peer->amd_ms(amd_order));
       metis_times.push_back(peer->metis_ms(metis_order));
     }
     const auto fill = [&](const int32_t* order) {
-      return hf_inner::estimate_fill(system.matrix(), {order, own_order.size()}, system.memory());
+      return hf_inner::factor::estimate_fill(system.matrix(), {order, own_order.size()}, system.memory());
     };
     own = {median(own_times), fill(own_order.data())};
     degree = {median(degree_times), fill(degree_order.data())};
@@ -60,33 +60,34 @@ struct Orderings {
 
 double time_symbolic(const InnerSystem& system, hf_inner::Span<const int32_t> order, uint32_t repetitions) {
   return median_ms(repetitions, [&] {
-    hf_inner::Symbolic symbolic;
-    hf_inner::analyse(system.matrix(), order, system.memory(), symbolic);
+    hf_inner::factor::Symbolic symbolic;
+    hf_inner::factor::analyse(system.matrix(), order, system.memory(), symbolic);
   });
 }
 
 // Numeric factorisation into memory that is there already, ours and the peer's in turns, on the factor's permutation.
-json compare_numeric(const InnerSystem& system, const hf_inner::SupernodalFactor& factor, CholmodPeer* peer,
+json compare_numeric(const InnerSystem& system, const hf_inner::factor::SupernodalFactor& factor, CholmodPeer* peer,
                      const Run& run) {
   hf_inner::Buffer<double> values(system.memory(), factor.values().size());
   std::memset(values.data(), 0, values.size() * sizeof(double));
   if (peer) peer->analyse_given_ms(std::vector<int>(factor.order().begin(), factor.order().end()));
-  const auto ours_with = [&](const hf_inner::Kernels& kernels) {
+  const auto ours_with = [&](const hf_inner::factor::Kernels& kernels) {
     return time_ms([&] {
-      hf_inner::factorise(factor.symbolic(), factor.plan(), kernels, system.matrix(), {}, hf_inner::default_lost_share,
-                          values.data(), system.memory(), system.jobs());
+      hf_inner::factor::factorise(factor.symbolic(), factor.plan(), kernels, system.matrix(), {},
+                                  hf_inner::factor::default_lost_share, values.data(), system.memory(), system.jobs());
     });
   };
   std::vector<double> ours, narrow, theirs, theirs_serial;
   for (uint32_t r = 0; r < run.repetitions; ++r) {
     ours.push_back(ours_with(factor.kernels()));
-    if (const hf_inner::Kernels* kernels = hf_inner::avx2_kernels()) narrow.push_back(ours_with(*kernels));
+    if (const hf_inner::factor::Kernels* kernels = hf_inner::factor::avx2_kernels())
+      narrow.push_back(ours_with(*kernels));
     if (!peer) continue;
     theirs.push_back(peer->factorise_ms());
     // should more threads of BLAS not help the peer, it gets one
     if (run.threads > 1) theirs_serial.push_back(peer->factorise_ms(1));
   }
-  const hf_inner::FactorStatistics& statistics = factor.statistics();
+  const hf_inner::factor::FactorStatistics& statistics = factor.statistics();
   json out = {{"ms", median(ours)},
               {"gflops", 1e-6 * statistics.flops / median(ours)},
               {"entries", statistics.entries},
@@ -167,11 +168,11 @@ json run_mesh(const Mesh& mesh, const Run& run, Report* report) {
   }
   const double symbolic = time_symbolic(system, {own_order.data(), own_order.size()}, few);
   row["symbolic_ms"] = symbolic;
-  hf_inner::FactorOptions options;
-  const auto make = [&](hf_inner::Ordering ordering) {
+  hf_inner::factor::FactorOptions options;
+  const auto make = [&](hf_inner::factor::Ordering ordering) {
     options.ordering = ordering;
-    return std::static_pointer_cast<const hf_inner::SupernodalFactor>(
-        hf_inner::Factor::make(system.matrix(), system.coordinates(), options, system.memory(), system.jobs()));
+    return std::static_pointer_cast<const hf_inner::factor::SupernodalFactor>(
+        hf_inner::factor::Factor::make(system.matrix(), system.coordinates(), options, system.memory(), system.jobs()));
   };
   if (peer) {
     const double theirs = peer->analyse_given_ms(std::vector<int>(own_order.begin(), own_order.end()));
@@ -182,7 +183,7 @@ json run_mesh(const Mesh& mesh, const Run& run, Report* report) {
         "cholmod_analyze_p %.1f (%.2fx)\n",
         "", metis.ms, 1e-6 * metis.fill.entries, 1e-9 * metis.fill.flops, metis.ms / own.ms,
         own.fill.entries / metis.fill.entries, own.fill.flops / metis.fill.flops, symbolic, theirs, theirs / symbolic);
-    row["numeric_metis"] = compare_numeric(system, *make(hf_inner::Ordering::metis), peer.get(), run);
+    row["numeric_metis"] = compare_numeric(system, *make(hf_inner::factor::Ordering::metis), peer.get(), run);
     print_numeric("METIS's", row["numeric_metis"]);
     if (report) {
       report->measure("ordering_time", mesh.name, run.threads, metis.ms / own.ms);
@@ -191,7 +192,7 @@ json run_mesh(const Mesh& mesh, const Run& run, Report* report) {
       report->measure("numeric", mesh.name, run.threads, number_of(row, "/numeric_metis/ratio"));
     }
   }
-  const auto factor = make(hf_inner::Ordering::nested_dissection);
+  const auto factor = make(hf_inner::factor::Ordering::nested_dissection);
   row["numeric_own"] = compare_numeric(system, *factor, peer.get(), run);
   print_numeric("ours", row["numeric_own"]);
   row["stored"] = store_and_load(mesh, run);

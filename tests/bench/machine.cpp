@@ -61,7 +61,7 @@ std::vector<std::pair<std::string, std::string>> machine_facts() {
 #ifdef __VERSION__
       {"compiler", __VERSION__},
 #endif
-      {"kernels chosen", hf_inner::choose_kernels().name},
+      {"kernels chosen", hf_inner::factor::choose_kernels().name},
   };
   for (auto& fact : peer_versions()) facts.push_back(std::move(fact));
   return facts;

@@ -10,7 +10,7 @@
 namespace bench {
 namespace {
 
-using Groups = hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>>;
+using Groups = hf_inner::Vector<std::shared_ptr<const hf_inner::factor::PathGroup>>;
 
 // A batch of vertex sites as columns of W.
 struct PathBatch {
@@ -19,7 +19,7 @@ struct PathBatch {
     for (const uint32_t v : scattered_vertices(n, count, 3)) row.push_back(static_cast<int32_t>(v));
     for (uint32_t i = 0; i <= count; ++i) start.push_back(static_cast<int32_t>(i));
   }
-  hf_inner::SparseColumns columns() const {
+  hf_inner::factor::SparseColumns columns() const {
     return {{start.data(), start.size()}, {row.data(), row.size()}, {ones.data(), ones.size()}};
   }
   std::vector<int32_t> start, row;
@@ -27,11 +27,12 @@ struct PathBatch {
   std::vector<int32_t> group, column;
 };
 
-double gram_all(const hf_inner::Factor& factor, const Groups& groups) {
-  std::vector<double> tile(size_t{hf_inner::PathGroup::capacity} * hf_inner::PathGroup::capacity);
+double gram_all(const hf_inner::factor::Factor& factor, const Groups& groups) {
+  std::vector<double> tile(size_t{hf_inner::factor::PathGroup::capacity} * hf_inner::factor::PathGroup::capacity);
   return time_ms([&] {
     for (size_t i = 0; i < groups.size(); ++i) {
-      for (size_t j = 0; j <= i; ++j) factor.gram(*groups[i], *groups[j], tile.data(), hf_inner::PathGroup::capacity);
+      for (size_t j = 0; j <= i; ++j)
+        factor.gram(*groups[i], *groups[j], tile.data(), hf_inner::factor::PathGroup::capacity);
     }
   });
 }
@@ -39,7 +40,8 @@ double gram_all(const hf_inner::Factor& factor, const Groups& groups) {
 Rows run_mesh(const Mesh& mesh, const Run& run) {
   Rows rows = Rows::array();
   const InnerSystem system(mesh, run.threads);
-  const auto factor = hf_inner::Factor::make(system.matrix(), system.coordinates(), {}, system.memory(), system.jobs());
+  const auto factor =
+      hf_inner::factor::Factor::make(system.matrix(), system.coordinates(), {}, system.memory(), system.jobs());
   for (const uint32_t count : {1u, 8u, 60u, 100u, 200u, 300u}) {
     const std::string name = std::to_string(count) + "_sites_" + mesh.name;
     if (!run.wants(name)) continue;

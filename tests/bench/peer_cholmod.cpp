@@ -254,7 +254,9 @@ void give_peer_fitting_blas(char** argv) {
   if (!core || std::getenv(core_type)) return;
   const std::string name = core();
   if (name != "Prescott" && name != "Generic" && name != "Core2") return;
-  const char* fitting = hf_inner::avx512_kernels() ? "SkylakeX" : hf_inner::avx2_kernels() ? "Haswell" : nullptr;
+  const char* fitting = hf_inner::factor::avx512_kernels() ? "SkylakeX"
+                        : hf_inner::factor::avx2_kernels() ? "Haswell"
+                                                           : nullptr;
   if (!fitting) return;
   setenv(core_type, fitting, 1);
   execv("/proc/self/exe", argv);  // returns only when it fails: the peer then runs as its BLAS would have it

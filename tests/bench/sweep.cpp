@@ -47,8 +47,9 @@ class BareSweep {
  public:
   BareSweep(const Mesh& mesh, uint32_t threads)
       : system_(mesh, threads),
-        factor_(hf_inner::Factor::make(system_.matrix(), system_.coordinates(), {}, system_.memory(), system_.jobs())),
-        preview_(hf_inner::PreviewFactor::make(*factor_, system_.memory(), system_.jobs())),
+        factor_(hf_inner::factor::Factor::make(system_.matrix(), system_.coordinates(), {}, system_.memory(),
+                                               system_.jobs())),
+        preview_(hf_inner::factor::PreviewFactor::make(*factor_, system_.memory(), system_.jobs())),
         wide_(system_.memory(), static_cast<size_t>(factor_->size())),
         narrow_(system_.memory(), wide_.size()) {}
   double double_ms() {
@@ -72,8 +73,8 @@ class BareSweep {
  private:
   static double right(size_t i) { return std::sin(0.1 * static_cast<double>(i)); }
   InnerSystem system_;
-  std::shared_ptr<const hf_inner::Factor> factor_;
-  std::shared_ptr<const hf_inner::PreviewFactor> preview_;
+  std::shared_ptr<const hf_inner::factor::Factor> factor_;
+  std::shared_ptr<const hf_inner::factor::PreviewFactor> preview_;
   hf_inner::Buffer<double> wide_;
   hf_inner::Buffer<float> narrow_;
 };

@@ -17,7 +17,7 @@
 
 namespace {
 
-using hf_inner::Kernels;
+using hf_inner::factor::Kernels;
 
 double small_number(std::size_t i) { return 1e-3 * static_cast<double>(i * 37 % 101) + 0.01; }
 
@@ -77,17 +77,17 @@ void update(const Kernels& k, bool, Data& d) {
   static std::vector<double> matrix(64 * 40 * 40);
   static std::vector<double> panel(8 * 96 * (12 + 30) + 64, 0.01);
   static_cast<void>(d);
-  const hf_inner::FrontView front{panel.data(), matrix.data(), Data::columns, Data::rows, 12, 30};
+  const hf_inner::factor::FrontView front{panel.data(), matrix.data(), Data::columns, Data::rows, 12, 30};
   k.form_update(front, 0, 30);
 }
 
 // A blend of blocks of eight vertices that share six clusters: the plain loop of blend.cpp, or the one for NEON.
 void blend(const Kernels&, bool neon, Data&) {
-  using hf_inner::Affine;
+  using hf_inner::deform::Affine;
   constexpr int shared = 6, groups = 4, blocks = Data::vertices / 8;
   static hf_inner::Memory memory;
-  static hf_inner::Mesh mesh(memory);
-  static hf_inner::ClusterWeights weights(memory);
+  static hf_inner::mesh::Mesh mesh(memory);
+  static hf_inner::deform::ClusterWeights weights(memory);
   static std::vector<hf_inner::Vec3> out(Data::vertices);
   static Affine transforms[shared * groups];
   alignas(64) static double columns[16 * shared * groups];
@@ -110,23 +110,23 @@ void blend(const Kernels&, bool neon, Data&) {
     std::fill(std::begin(columns), std::end(columns), 0.25);
   }
 #if defined(__aarch64__)
-  const hf_inner::BlendRows rows{weights.start.data(),
-                                 weights.cluster.data(),
-                                 weights.weight.data(),
-                                 columns,
-                                 &mesh.positions.data()->x,
-                                 {0.1, 0.2, 0.3},
-                                 2.0,
-                                 &out[0].x,
-                                 weights.block_start.data(),
-                                 weights.block_cluster.data(),
-                                 weights.block_weight.data()};
-  if (neon) return hf_inner::blend_rows_neon(rows, 0, Data::vertices);
+  const hf_inner::deform::BlendRows rows{weights.start.data(),
+                                         weights.cluster.data(),
+                                         weights.weight.data(),
+                                         columns,
+                                         &mesh.positions.data()->x,
+                                         {0.1, 0.2, 0.3},
+                                         2.0,
+                                         &out[0].x,
+                                         weights.block_start.data(),
+                                         weights.block_cluster.data(),
+                                         weights.block_weight.data()};
+  if (neon) return hf_inner::deform::blend_rows_neon(rows, 0, Data::vertices);
 #endif
   static_cast<void>(neon);
   for (int v = 0; v < Data::vertices; ++v)
     out[static_cast<std::size_t>(v)] =
-        hf_inner::Vec3{0.1, 0.2, 0.3} + 2.0 * hf_inner::blend_vertex(mesh, weights, transforms, v);
+        hf_inner::Vec3{0.1, 0.2, 0.3} + 2.0 * hf_inner::deform::blend_vertex(mesh, weights, transforms, v);
 }
 
 void rotations(const Kernels&, bool neon, Data&) {
@@ -135,12 +135,12 @@ void rotations(const Kernels&, bool neon, Data&) {
   for (int i = 0; !filled && i < 72; ++i) s[i] = i / 8 % 4 == 0 ? 1.0 + 0.01 * i : 0.01 * i;
   for (int i = 0; !filled && i < 32; ++i) q[i] = i >= 24 ? 1 : 0;
   filled = true;
-  static hf_inner::RotationStep step;
+  static hf_inner::deform::RotationStep step;
 #if defined(__aarch64__)
-  if (neon) return hf_inner::step_rotations_neon(s, q, step, false);
+  if (neon) return hf_inner::deform::step_rotations_neon(s, q, step, false);
 #endif
   static_cast<void>(neon);
-  hf_inner::step_rotations(s, q, step, false);
+  hf_inner::deform::step_rotations(s, q, step, false);
 }
 
 constexpr double c = Data::columns, r = Data::rows;
@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   const bool neon = std::strcmp(argv[2], "neon") == 0;
-  const Kernels* kernels = neon ? hf_inner::neon_kernels() : hf_inner::plain_kernels();
+  const Kernels* kernels = neon ? hf_inner::factor::neon_kernels() : hf_inner::factor::plain_kernels();
   if (!kernels) return 77;
   for (const Work& work : works) {
     if (std::strcmp(work.name, argv[1]) != 0) continue;

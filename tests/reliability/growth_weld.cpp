@@ -10,7 +10,7 @@ namespace growth {
 namespace {
 
 using hf_inner::Vec3;
-using hf_inner::Weld;
+using hf_inner::mesh::Weld;
 using Place = std::function<Vec3(std::size_t i, std::size_t count)>;
 
 std::mt19937 engine(1);
@@ -37,7 +37,7 @@ Run weld_of(Weld mode, const Place& place) {
     engine.seed(1);
     for (std::size_t i = 0; i < size; ++i) (*points)[i] = place(i, size);
     return [=] {
-      hf_inner::MeshInput input;
+      hf_inner::mesh::MeshInput input;
       input.vertex_count = static_cast<std::uint32_t>(points->size());
       input.positions = hf_inner::ConstRows(&points->data()->x, sizeof(Vec3));
       input.weld = mode;
@@ -46,7 +46,7 @@ Run weld_of(Weld mode, const Place& place) {
       hooks.allocate = counting_allocate;
       hooks.release = counting_release;
       hf_inner::Memory memory(hooks);
-      hf_inner::weld(input, memory);
+      hf_inner::mesh::weld(input, memory);
     };
   };
 }

@@ -8,14 +8,14 @@
 
 #include "deform/refine.h"
 #include "deform/rest.h"
-#include "engine/core.h"
+#include "surface/core.h"
 
 namespace hf_test {
 
 class ArapOracle {
  public:
   // fixed: per inner vertex, non-zero where it belongs to a handle.
-  ArapOracle(const hf_inner::Core& core, std::vector<std::uint8_t> fixed)
+  ArapOracle(const hf_inner::surface::Core& core, std::vector<std::uint8_t> fixed)
       : core_(core),
         rest_(core, *core.memory),
         fixed_(std::move(fixed)),
@@ -30,21 +30,21 @@ class ArapOracle {
 
   // One iteration on positions in the mesh's own unit; the fixed ones stay.
   void iterate(std::vector<hf_inner::Vec3>& x) {
-    const hf_inner::Topology& topology = core_.topology();
+    const hf_inner::mesh::Topology& topology = core_.topology();
     const auto& p = core_.mesh.positions;
     before_ = rotation_;
-    hf_inner::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
+    hf_inner::deform::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
       for (std::int32_t v = first; v < last; ++v) {
         hf_inner::Mat3 s;
-        hf_inner::add_ring(core_, rest_, x.data(), v, s);
+        hf_inner::deform::add_ring(core_, rest_, x.data(), v, s);
         for (std::int32_t k = topology.neighbour_start[v]; smoothness_ > 0 && k < topology.neighbour_start[v + 1]; ++k)
           s = s + smoothness_ * core_.weights()[topology.neighbour_edge[k]] *
                       before_[topology.neighbour[k]].toRotationMatrix();
-        rotation_[v] = hf_inner::best_rotation_from(s, rotation_[v]);
+        rotation_[v] = hf_inner::deform::best_rotation_from(s, rotation_[v]);
       }
     });
     const hf_inner::Span<const std::int32_t> position = core_.factor->position();
-    hf_inner::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
+    hf_inner::deform::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
       for (std::int32_t v = first; v < last; ++v) {
         hf_inner::Vec3 sum;
         if (!fixed_[v]) {
@@ -87,12 +87,12 @@ class ArapOracle {
   }
 
  private:
-  const hf_inner::Core& core_;
-  hf_inner::Rest rest_;
+  const hf_inner::surface::Core& core_;
+  hf_inner::deform::Rest rest_;
   std::vector<std::uint8_t> fixed_;
-  std::shared_ptr<const hf_inner::Factor> factor_;
+  std::shared_ptr<const hf_inner::factor::Factor> factor_;
   double smoothness_ = 0;
-  std::vector<hf_inner::Quaternion> rotation_, before_;
+  std::vector<hf_inner::deform::Quaternion> rotation_, before_;
   std::vector<double> z_;
 };
 

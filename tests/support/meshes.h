@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/core.h"
+#include "surface/core.h"
 
 namespace hf_test {
 
@@ -74,15 +74,16 @@ inline void append(PlainMesh& mesh, const PlainMesh& other, double dx) {
   for (const std::uint32_t v : other.triangles) mesh.triangles.push_back(base + v);
 }
 
-inline std::shared_ptr<const hf_inner::Core> make_core(
-    const PlainMesh& mesh, std::uint32_t threads = 1, hf_inner::CoreOptions options = {},
+inline std::shared_ptr<const hf_inner::surface::Core> make_core(
+    const PlainMesh& mesh, std::uint32_t threads = 1, hf_inner::surface::CoreOptions options = {},
     std::shared_ptr<hf_inner::Memory> memory = std::make_shared<hf_inner::Memory>()) {
-  hf_inner::MeshInput input;
+  hf_inner::mesh::MeshInput input;
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = mesh.triangle_count();
   input.positions = hf_inner::ConstRows(mesh.positions.data(), 3 * sizeof(double));
   input.triangles = hf_inner::IndexRows(mesh.triangles.data(), 3);
-  return hf_inner::Core::make(input, options, std::move(memory), std::make_shared<hf_inner::JobRunner>(threads));
+  return hf_inner::surface::Core::make(input, options, std::move(memory),
+                                       std::make_shared<hf_inner::JobRunner>(threads));
 }
 
 }  // namespace hf_test

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core.h"
 #include "support/dense.h"
+#include "surface/core.h"
 
 namespace hf_test {
 

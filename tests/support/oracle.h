@@ -5,13 +5,13 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "engine/site_solver.h"
+#include "solve/site_solver.h"
 #include "support/dense.h"
 
 namespace hf_test {
 
 // K as a dense matrix; a product of dense matrices where the core does not form it.
-inline Eigen::MatrixXd dense_operator(const hf_inner::Core& core) {
+inline Eigen::MatrixXd dense_operator(const hf_inner::surface::Core& core) {
   const hf_inner::SymmetricMatrix& m = core.root ? core.root->matrix() : core.matrix();
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(core.size(), core.size());
   for (int v = 0; v < core.size(); ++v) {
@@ -26,11 +26,11 @@ inline Eigen::MatrixXd dense_operator(const hf_inner::Core& core) {
 
 // sites in use only; values one row per site. Returns n x m (components without a site: zero rows). lambda: one row per
 // site.
-inline Eigen::MatrixXd dense_field(const hf_inner::Core& core, const std::vector<hf_inner::Site>& sites,
+inline Eigen::MatrixXd dense_field(const hf_inner::surface::Core& core, const std::vector<hf_inner::solve::Site>& sites,
                                    const Eigen::MatrixXd& values, Eigen::MatrixXd* lambda = nullptr) {
   const int n = core.size(), k = static_cast<int>(sites.size());
   std::vector<int> reached(static_cast<std::size_t>(core.mesh.component_count()), 0);
-  for (const hf_inner::Site& site : sites) reached[static_cast<std::size_t>(site.component)] = 1;
+  for (const hf_inner::solve::Site& site : sites) reached[static_cast<std::size_t>(site.component)] = 1;
   const Eigen::MatrixXd operation = dense_operator(core);
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + k, n + k);
   for (int v = 0; v < n; ++v) {
@@ -42,7 +42,7 @@ inline Eigen::MatrixXd dense_field(const hf_inner::Core& core, const std::vector
   }
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(n + k, values.cols());
   for (int i = 0; i < k; ++i) {
-    const hf_inner::Site& site = sites[static_cast<std::size_t>(i)];
+    const hf_inner::solve::Site& site = sites[static_cast<std::size_t>(i)];
     for (int q = 0; q < 3; ++q) {
       if (site.vertex[q] < 0) continue;
       a(site.vertex[q], n + i) -= site.weight[q];

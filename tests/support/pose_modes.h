@@ -8,8 +8,8 @@ namespace hf_test {
 enum class DeformMode { smooth, paper };
 
 // For PoseOptions::scheme.
-inline std::shared_ptr<const hf_inner::PoseScheme> scheme_of(DeformMode mode) {
-  return mode == DeformMode::paper ? hf_inner::paper_scheme() : nullptr;
+inline std::shared_ptr<const hf_inner::deform::PoseScheme> scheme_of(DeformMode mode) {
+  return mode == DeformMode::paper ? hf_inner::peers::paper_scheme() : nullptr;
 }
 
 }  // namespace hf_test

@@ -6,14 +6,15 @@
 #include <string>
 #include <utility>
 
-#include "engine/core.h"
 #include "remesh/quad_mesh.h"
+#include "surface/core.h"
 
 namespace hf_test {
 
 // Each directed edge occurs once, no face repeats a corner, every vertex is used, the Euler characteristic is that of
 // the surface, and there are borders where the surface has some.
-inline void expect_manifold(const hf_inner::Core& core, const hf_inner::QuadMesh& mesh, const std::string& what) {
+inline void expect_manifold(const hf_inner::surface::Core& core, const hf_inner::remesh::QuadMesh& mesh,
+                            const std::string& what) {
   std::set<std::pair<std::int32_t, std::int32_t>> directed;
   std::set<std::int32_t> used;
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {

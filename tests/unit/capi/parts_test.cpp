@@ -10,8 +10,8 @@
 
 #include "hf/hf.h"
 #include "mesh/nearest_triangle.h"
-#include "support/part_scenes.h"
 #include "support/arrays.h"
+#include "support/part_scenes.h"
 
 namespace {
 
@@ -101,8 +101,8 @@ Gaps gaps_of(const Scene& scene, const std::vector<double>& posed, double range)
       const std::uint32_t* c = &scene.mesh.triangles[t];
       if (c[0] >= scene.body) continue;
       double w[3];
-      const double d =
-          hf_inner::squared_to_triangle(point(rest, v), point(rest, c[0]), point(rest, c[1]), point(rest, c[2]), w);
+      const double d = hf_inner::mesh::squared_to_triangle(point(rest, v), point(rest, c[0]), point(rest, c[1]),
+                                                           point(rest, c[2]), w);
       if (d < least) {
         least = d;
         nearest = c;

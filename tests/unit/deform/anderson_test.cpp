@@ -8,8 +8,8 @@
 
 namespace {
 
-using hf_inner::Anderson;
 using hf_inner::Memory;
+using hf_inner::deform::Anderson;
 
 // z <- rate z + (1 - rate): every entry goes to 1, entry i by its own rate.
 struct Map {

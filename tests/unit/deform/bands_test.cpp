@@ -20,6 +20,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 
 // A closed tube of `around` vertices and `rows` rings along y, ends open.
@@ -86,7 +87,7 @@ TEST(Handles, SampledRingsLeakAsMeasuredAndFullRingsDoNot) {
 TEST(Handles, FieldsEqualADirectSolve) {
   const Case c = cactus_bend(70, 1500);
   const Dragged d = set_up(c, {});
-  const Core& core = *d.core;
+  const surface::Core& core = *d.core;
   // K with unit rows on the regions, factored by a general sparse solver
   std::vector<int> owner(static_cast<std::size_t>(core.size()), -1);
   for (std::size_t i = 0; i < c.regions.size(); ++i) {

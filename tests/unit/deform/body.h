@@ -15,6 +15,7 @@
 namespace deform_test {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using Surface = std::vector<Vec3>;
 using Region = std::vector<std::int32_t>;
 
@@ -24,7 +25,7 @@ inline bool same_bits(const Surface& a, const Surface& b) {
 
 // A generated creature; its places are those of its joints.
 struct Creature {
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   std::map<std::string, Vec3> joints;
   double box = 0;
 };
@@ -60,7 +61,7 @@ struct Body {
     return number;
   }
   Region region_at(const char* joint, double radius = 0.05) const {
-    const Mesh& mesh = creature.core->mesh;
+    const mesh::Mesh& mesh = creature.core->mesh;
     const Vector<std::int32_t> found =
         RegionSearch(*creature.core).near(mesh.to_inner(creature.joints.at(joint)), radius);
     return {found.begin(), found.end()};

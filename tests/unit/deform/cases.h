@@ -30,13 +30,13 @@ inline const hf_test::PlainMesh& cactus(std::uint32_t vertices) {
 }
 
 // Inner vertices of those as given; the shapes have no welded or isolated vertices, but the map is asked all the same.
-inline std::vector<std::int32_t> inner(const hf_inner::Core& core, const std::vector<std::uint32_t>& given) {
+inline std::vector<std::int32_t> inner(const hf_inner::surface::Core& core, const std::vector<std::uint32_t>& given) {
   std::vector<std::int32_t> out;
   for (const std::uint32_t v : given) out.push_back(core.mesh.inner_of_given[v]);
   return out;
 }
 
-inline std::vector<std::int32_t> select(const hf_inner::Core& core, const std::function<bool(Vec3)>& inside) {
+inline std::vector<std::int32_t> select(const hf_inner::surface::Core& core, const std::function<bool(Vec3)>& inside) {
   std::vector<std::int32_t> out;
   for (std::int32_t v = 0; v < core.size(); ++v) {
     if (inside(core.mesh.to_given(core.mesh.positions[v]))) out.push_back(v);
@@ -44,7 +44,8 @@ inline std::vector<std::int32_t> select(const hf_inner::Core& core, const std::f
   return out;
 }
 
-inline std::vector<std::uint32_t> add(hf_inner::Pose& pose, const std::vector<std::vector<std::int32_t>>& regions) {
+inline std::vector<std::uint32_t> add(hf_inner::deform::Pose& pose,
+                                      const std::vector<std::vector<std::int32_t>>& regions) {
   std::vector<std::uint32_t> start{0}, numbers(regions.size());
   std::vector<std::int32_t> vertices;
   for (const auto& region : regions) {
@@ -55,11 +56,12 @@ inline std::vector<std::uint32_t> add(hf_inner::Pose& pose, const std::vector<st
   return numbers;
 }
 
-inline hf_inner::Quaternion about(Vec3 axis, double angle) {
-  return hf_inner::exponential((angle / hf_inner::norm(axis)) * axis);
+inline hf_inner::deform::Quaternion about(Vec3 axis, double angle) {
+  return hf_inner::deform::exponential((angle / hf_inner::norm(axis)) * axis);
 }
 
-inline void place(hf_inner::Pose& pose, std::uint32_t handle, const hf_inner::HandleTransform& transform) {
+inline void place(hf_inner::deform::Pose& pose, std::uint32_t handle,
+                  const hf_inner::deform::HandleTransform& transform) {
   pose.set_transforms({&handle, 1}, {&transform, 1});
 }
 
@@ -68,17 +70,17 @@ struct Case {
   std::string name;
   hf_test::PlainMesh mesh;
   std::vector<std::function<bool(Vec3)>> regions;
-  std::function<hf_inner::HandleTransform(std::size_t handle, double t, Vec3 centroid)> motion;
+  std::function<hf_inner::deform::HandleTransform(std::size_t handle, double t, Vec3 centroid)> motion;
   bool closed = true;
 };
 
 // The end of a straight beam along y, from `bottom` to `top` free, bent into an arc of `angle` in the plane of x and y.
-inline hf_inner::HandleTransform bend(double angle, double bottom, double top, Vec3 centroid) {
+inline hf_inner::deform::HandleTransform bend(double angle, double bottom, double top, Vec3 centroid) {
   if (std::fabs(angle) < 1e-12) return {};
   const double radius = (top - bottom) / angle;
-  const hf_inner::Quaternion turn = about({0, 0, -1}, angle);
+  const hf_inner::deform::Quaternion turn = about({0, 0, -1}, angle);
   const Vec3 end{radius * (1 - std::cos(angle)), bottom + radius * std::sin(angle), 0};
-  const Vec3 target = end + hf_inner::rotate(turn, centroid - Vec3{0, top, 0});
+  const Vec3 target = end + hf_inner::deform::rotate(turn, centroid - Vec3{0, top, 0});
   return {turn, target - centroid};
 }
 
@@ -100,7 +102,7 @@ inline Case bar_twist(double degrees, std::uint32_t n = 16) {
   c.mesh = plain(samples::box(1, 6, 1, n, 6 * n, n));
   c.regions = {[](Vec3 p) { return p.y < 0.45; }, [](Vec3 p) { return p.y > 5.55; }};
   c.motion = [=](std::size_t, double t, Vec3) {
-    return hf_inner::HandleTransform{about({0, 1, 0}, t * degrees * pi / 180), {}};
+    return hf_inner::deform::HandleTransform{about({0, 1, 0}, t * degrees * pi / 180), {}};
   };
   return c;
 }
@@ -123,7 +125,7 @@ inline Case plane_lift(std::uint32_t side = 101) {
   c.mesh = plain(samples::bumpy_plane(side, side));
   c.regions = {[](Vec3 p) { return std::max(std::fabs(p.x), std::fabs(p.z)) > 0.9; },
                [](Vec3 p) { return std::hypot(p.x, p.z) < 0.2; }};
-  c.motion = [](std::size_t, double t, Vec3) { return hf_inner::HandleTransform{{}, {0, t * 1.0, 0}}; };
+  c.motion = [](std::size_t, double t, Vec3) { return hf_inner::deform::HandleTransform{{}, {0, t * 1.0, 0}}; };
   c.closed = false;
   return c;
 }
@@ -141,7 +143,7 @@ inline Case study_plane_lift() {
     p[1] = 0.06 * wave * wave;
   }
   c.regions[0] = [](Vec3 p) { return std::max(std::fabs(p.x), std::fabs(p.z)) > 0.85; };
-  c.motion = [](std::size_t, double t, Vec3) { return hf_inner::HandleTransform{{}, {0, t * 0.9, 0}}; };
+  c.motion = [](std::size_t, double t, Vec3) { return hf_inner::deform::HandleTransform{{}, {0, t * 0.9, 0}}; };
   return c;
 }
 
@@ -162,9 +164,9 @@ inline Case scan_reach(const hf_test::PlainMesh& mesh) {
                [=](Vec3 p) { return p.y < floor && p.x >= middle; },
                [=](Vec3 p) { return norm(p - hand) < 0.13 * height; }};
   c.motion = [=](std::size_t handle, double t, Vec3) {
-    return handle == 2 ? hf_inner::HandleTransform{about({0, 1, 1}, t * 0.7),
-                                                   {-0.12 * t * height, 0.03 * t * height, -0.1 * t * height}}
-                       : hf_inner::HandleTransform{};
+    return handle == 2 ? hf_inner::deform::HandleTransform{about({0, 1, 1}, t * 0.7),
+                                                           {-0.12 * t * height, 0.03 * t * height, -0.1 * t * height}}
+                       : hf_inner::deform::HandleTransform{};
   };
   return c;
 }
@@ -188,25 +190,25 @@ inline Case scan_hands(const hf_test::PlainMesh& mesh) {
   c.regions = {[=](Vec3 p) { return p.y < floor; }, [=](Vec3 p) { return norm(p - raised) < 0.13 * height; },
                [=](Vec3 p) { return norm(p - lowered) < 0.13 * height; }};
   c.motion = [=](std::size_t handle, double t, Vec3) {
-    return handle == 1
-               ? hf_inner::HandleTransform{about({0, 0, -1}, t * 0.4), {-0.08 * t * height, 0.05 * t * height, 0}}
-               : hf_inner::HandleTransform{about({0, 0, -1}, t * 0.9),
-                                           {-0.1 * t * height, -0.3 * t * height, 0.05 * t * height}};
+    return handle == 1 ? hf_inner::deform::HandleTransform{about({0, 0, -1}, t * 0.4),
+                                                           {-0.08 * t * height, 0.05 * t * height, 0}}
+                       : hf_inner::deform::HandleTransform{about({0, 0, -1}, t * 0.9),
+                                                           {-0.1 * t * height, -0.3 * t * height, 0.05 * t * height}};
   };
   return c;
 }
 
 struct Dragged {
-  std::shared_ptr<const hf_inner::Core> core;
-  std::shared_ptr<hf_inner::Pose> pose;
+  std::shared_ptr<const hf_inner::surface::Core> core;
+  std::shared_ptr<hf_inner::deform::Pose> pose;
   std::vector<std::uint32_t> handles;
-  hf_inner::DeformReport report;
+  hf_inner::deform::DeformReport report;
 };
 
-inline Dragged set_up(const Case& c, const hf_inner::PoseOptions& options, std::uint32_t threads = 1) {
+inline Dragged set_up(const Case& c, const hf_inner::deform::PoseOptions& options, std::uint32_t threads = 1) {
   Dragged d;
   d.core = hf_test::make_core(c.mesh, threads);
-  d.pose = hf_inner::Pose::make(d.core, options);
+  d.pose = hf_inner::deform::Pose::make(d.core, options);
   std::vector<std::vector<std::int32_t>> regions;
   for (const auto& region : c.regions) regions.push_back(select(*d.core, region));
   d.handles = add(*d.pose, regions);
@@ -218,8 +220,8 @@ inline void move_to(const Case& c, Dragged& d, double t) {
     place(*d.pose, d.handles[i], c.motion(i, t, d.pose->handle(d.handles[i]).centroid));
 }
 
-inline Dragged drag(const Case& c, const hf_inner::PoseOptions& options, int frames = 30, std::uint32_t iterations = 5,
-                    std::uint32_t threads = 1) {
+inline Dragged drag(const Case& c, const hf_inner::deform::PoseOptions& options, int frames = 30,
+                    std::uint32_t iterations = 5, std::uint32_t threads = 1) {
   Dragged d = set_up(c, options, threads);
   d.pose->deform({});
   for (int frame = 1; frame <= frames; ++frame) {
@@ -229,11 +231,11 @@ inline Dragged drag(const Case& c, const hf_inner::PoseOptions& options, int fra
   return d;
 }
 
-inline std::vector<Vec3> positions(const hf_inner::DeformReport& report) {
+inline std::vector<Vec3> positions(const hf_inner::deform::DeformReport& report) {
   return {report.positions.begin(), report.positions.end()};
 }
 
-inline std::vector<Vec3> rest(const hf_inner::Core& core) {
+inline std::vector<Vec3> rest(const hf_inner::surface::Core& core) {
   std::vector<Vec3> out;
   for (const Vec3& p : core.mesh.positions) out.push_back(core.mesh.to_given(p));
   return out;
@@ -258,7 +260,7 @@ struct Quality {
       0;  // area-weighted jump between neighbours of the change of mean curvature, times the box diagonal
 };
 
-inline double signed_volume(const hf_inner::Mesh& mesh, const std::vector<Vec3>& x) {
+inline double signed_volume(const hf_inner::mesh::Mesh& mesh, const std::vector<Vec3>& x) {
   double sum = 0;
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* k = mesh.triangle(t);
@@ -268,7 +270,7 @@ inline double signed_volume(const hf_inner::Mesh& mesh, const std::vector<Vec3>&
 }
 
 // Mean curvature, signed by the normal: |sum w (x_i - x_j)| / (2 area) with cotangents of the surface itself.
-inline std::vector<double> mean_curvature(const hf_inner::Mesh& mesh, const std::vector<Vec3>& x) {
+inline std::vector<double> mean_curvature(const hf_inner::mesh::Mesh& mesh, const std::vector<Vec3>& x) {
   std::vector<Vec3> sum(x.size()), normal(x.size());
   std::vector<double> area(x.size(), 0.0), h(x.size());
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -291,30 +293,30 @@ inline std::vector<double> mean_curvature(const hf_inner::Mesh& mesh, const std:
   return h;
 }
 
-inline double arap_energy(const hf_inner::Core& core, const std::vector<Vec3>& rest_positions,
+inline double arap_energy(const hf_inner::surface::Core& core, const std::vector<Vec3>& rest_positions,
                           const std::vector<Vec3>& x) {
-  const hf_inner::Topology& topology = core.topology();
+  const hf_inner::mesh::Topology& topology = core.topology();
   double sum = 0;
   for (std::int32_t v = 0; v < core.size(); ++v) {
     hf_inner::Mat3 s;
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
-      hf_inner::add_outer(s, std::max(core.weights()[topology.neighbour_edge[k]], 0.01), x[v] - x[u],
-                          rest_positions[v] - rest_positions[u]);
+      hf_inner::deform::add_outer(s, std::max(core.weights()[topology.neighbour_edge[k]], 0.01), x[v] - x[u],
+                                  rest_positions[v] - rest_positions[u]);
     }
-    const hf_inner::Quaternion r = hf_inner::best_rotation(s, {});
+    const hf_inner::deform::Quaternion r = hf_inner::deform::best_rotation(s, {});
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
-      const Vec3 d = x[v] - x[u] - hf_inner::rotate(r, rest_positions[v] - rest_positions[u]);
+      const Vec3 d = x[v] - x[u] - hf_inner::deform::rotate(r, rest_positions[v] - rest_positions[u]);
       sum += std::max(core.weights()[topology.neighbour_edge[k]], 0.01) * hf_inner::dot(d, d);
     }
   }
   return sum;
 }
 
-inline Quality measure(const hf_inner::Core& core, const std::vector<Vec3>& x) {
-  const hf_inner::Mesh& mesh = core.mesh;
-  const hf_inner::Topology& topology = core.topology();
+inline Quality measure(const hf_inner::surface::Core& core, const std::vector<Vec3>& x) {
+  const hf_inner::mesh::Mesh& mesh = core.mesh;
+  const hf_inner::mesh::Topology& topology = core.topology();
   const std::vector<Vec3> p = rest(core);
   Quality q;
   q.energy = arap_energy(core, p, x);

@@ -16,7 +16,7 @@ namespace {
 
 samples::Picture draw(const Dragged& d, const std::vector<Vec3>& posed, const Case& c, bool stripes) {
   samples::Surface surface;
-  const hf_inner::Mesh& mesh = d.core->mesh;
+  const hf_inner::mesh::Mesh& mesh = d.core->mesh;
   for (const Vec3& x : posed) surface.positions.insert(surface.positions.end(), {x.x, x.y, x.z});
   for (const std::int32_t v : mesh.corners) surface.triangles.push_back(static_cast<std::uint32_t>(v));
   samples::SurfaceLook look;
@@ -62,7 +62,7 @@ int time_all() {
   for (const std::uint32_t side : {90u, 205u, 304u}) {
     const auto core = hf_test::make_core(plain(samples::jittered_torus(side, side)));
     for (const int count : {2, 3, 4, 8, 16}) {
-      const auto pose = hf_inner::Pose::make(core, {});
+      const auto pose = hf_inner::deform::Pose::make(core, {});
       std::vector<std::vector<std::int32_t>> regions;
       for (int i = 0; i < count; ++i) {
         const double a = 2 * pi * i / count;
@@ -84,7 +84,7 @@ int time_all() {
       std::uint32_t clusters = 0;
       for (int frame = 0; frame < 20; ++frame) {
         place(*pose, numbers[0], {about({1, 0, 0}, 0.02 * frame), {0, 0, 0.01 * frame}});
-        const hf_inner::DeformReport r = pose->deform({true, 5, false});
+        const hf_inner::deform::DeformReport r = pose->deform({true, 5, false});
         solve = std::min(solve, r.solve_ms);
         blend = std::min(blend, r.blend_ms);
         normal = std::min(normal, r.normal_ms);
@@ -115,7 +115,8 @@ int main(int argc, char** argv) {
   if (!large && !what.empty()) cases = {scan_hands(read(what)), scan_reach(read(what))};
   for (const Case& c : cases) {
     std::vector<samples::Picture> tiles, lower;
-    const auto run = [&](const char* mode, hf_inner::PoseOptions options, std::uint32_t iterations, int settle) {
+    const auto run = [&](const char* mode, hf_inner::deform::PoseOptions options, std::uint32_t iterations,
+                         int settle) {
       const auto start = std::chrono::steady_clock::now();
       Dragged d = drag(c, options, 30, iterations);
       const double ms =
@@ -129,7 +130,7 @@ int main(int argc, char** argv) {
       const std::vector<Vec3> posed = positions(d.report);
       show(mode, posed);
       if (options.scheme) return;
-      hf_inner::DeformRequest request;
+      hf_inner::deform::DeformRequest request;
       request.iteration_count = 1;
       request.refine = true;
       show("smooth, refined", positions(d.pose->deform(request)));
@@ -146,14 +147,14 @@ int main(int argc, char** argv) {
         for (const Vec3& q : x) out.push_back(d.core->mesh.to_given(q));
         return out;
       };
-      hf_inner::CoreOptions own_edges;
-      own_edges.operator_kind = hf_inner::OperatorKind::cotangent;
+      hf_inner::surface::CoreOptions own_edges;
+      own_edges.operator_kind = hf_inner::mesh::OperatorKind::cotangent;
       const auto cotangents = hf_test::make_core(c.mesh, 1, own_edges);
       hf_test::ArapOracle oracle(*cotangents, fixed);
       oracle.converge(x, 300, [&](const std::vector<Vec3>&) { return arap_energy(*d.core, p, given()); });
       show("ARAP, converged", given());
     };
-    hf_inner::PoseOptions paper;
+    hf_inner::deform::PoseOptions paper;
     paper.scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
     run("paper 10/frame", paper, 10, 0);
     run("paper conv.", paper, 100, 1);

@@ -9,10 +9,11 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 
 // Turn of the surface from the lower to the upper end, section by section, in degrees.
-double total_twist(const Core& core, Span<const Vec3> x) {
+double total_twist(const surface::Core& core, Span<const Vec3> x) {
   std::map<long, std::vector<std::int32_t>> sections;
   for (std::int32_t v = 0; v < core.size(); ++v)
     sections[std::lround(1e4 * core.mesh.to_given(core.mesh.positions[v]).y)].push_back(v);

@@ -14,6 +14,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 // The hand is pulled up by a quarter of the box; feet stand.
 struct Drag {
@@ -217,7 +218,7 @@ TEST(Following, LayersAndThePapersModeRefuseIt) {
 // The prepared system of a set of handles, and its dense matrix.
 struct System {
   Body body;
-  const Core& core = *body.creature.core;
+  const surface::Core& core = *body.creature.core;
   Memory& memory = *core.memory;
   Rest rest{core, memory};
   Handles handles{&memory};
@@ -233,7 +234,7 @@ struct System {
       handles.push_back(
           {static_cast<std::uint32_t>(handles.size()), make_region(core, body.region_at(joint), 0, memory)});
     reach = std::make_unique<Reach>(core.mesh, handles, memory);
-    const auto sites = SiteSolver::make(body.creature.core);
+    const auto sites = solve::SiteSolver::make(body.creature.core);
     set_handle_sites(core, *sites, Handles(&memory), handles, memory);
     fields = std::make_unique<HandleFields>(solve_handle_fields(core, *sites, handles, *reach, memory));
     weights = std::make_unique<ClusterWeights>(make_cluster_weights(core, rest, *reach, *fields, {}, memory));

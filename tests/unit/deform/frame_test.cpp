@@ -12,6 +12,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 
 // The plane with its vertices in any order: every piece of vertices has triangles that lie across to all others.
@@ -28,7 +29,7 @@ Case scattered_plane() {
   return c;
 }
 
-std::vector<Vec3> normals_one_by_one(const Mesh& mesh, const std::vector<Vec3>& x) {
+std::vector<Vec3> normals_one_by_one(const mesh::Mesh& mesh, const std::vector<Vec3>& x) {
   std::vector<Vec3> sum(x.size());
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* k = mesh.triangle(t);
@@ -122,7 +123,7 @@ TEST(Frame, WeightsAreWholeStepsAndSumToOneExactly) {
 }
 
 void expect_same_blend(const Dragged& d) {
-  const Mesh& mesh = d.core->mesh;
+  const mesh::Mesh& mesh = d.core->mesh;
   const ClusterWeights& w = *d.pose->weights();
   const Span<const Affine> transforms = d.pose->cluster_transforms();
   std::vector<Vec3> plain;

@@ -15,13 +15,14 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 const Case& scene() {
   static const Case cactus = cactus_bend(70, 1800);
   return cactus;
 }
-std::shared_ptr<const Core> scene_core() {
-  static const std::shared_ptr<const Core> core = hf_test::make_core(scene().mesh);
+std::shared_ptr<const surface::Core> scene_core() {
+  static const std::shared_ptr<const surface::Core> core = hf_test::make_core(scene().mesh);
   return core;
 }
 Region base_region() { return select(*scene_core(), scene().regions[0]); }
@@ -35,7 +36,7 @@ Region other_arm_region() {
 
 // A cactus whose base is held and whose crown and arm are pulled.
 struct Plant {
-  std::shared_ptr<const Core> core = scene_core();
+  std::shared_ptr<const surface::Core> core = scene_core();
   std::shared_ptr<PoseStack> pose;
   double box = core->mesh.scale;
   explicit Plant(hf_test::DeformMode mode = hf_test::DeformMode::smooth) {
@@ -77,7 +78,7 @@ class Energy {
     for (const Region& region : regions)
       handles.push_back({static_cast<std::uint32_t>(handles.size()), make_region(core_, region, 0, *core_.memory)});
     const Reach reach(core_.mesh, handles, *core_.memory);
-    const auto sites = SiteSolver::make(plant.core);
+    const auto sites = solve::SiteSolver::make(plant.core);
     set_handle_sites(core_, *sites, Handles(core_.memory.get()), handles, *core_.memory);
     const HandleFields fields = solve_handle_fields(core_, *sites, handles, reach, *core_.memory);
     const ClusterWeights weights = make_cluster_weights(core_, rest_, reach, fields, {}, *core_.memory);
@@ -142,7 +143,7 @@ class Energy {
   }
   Vec3 at(const Surface& surface, std::int32_t v) const { return core_.mesh.to_inner(surface[v]); }
   Vec3 edge(std::int32_t i, std::int32_t j) const { return core_.mesh.positions[i] - core_.mesh.positions[j]; }
-  const Core& core_;
+  const surface::Core& core_;
   Rest rest_;
   std::shared_ptr<const Groups> groups_;
   std::unique_ptr<SmoothSystem> system_;

@@ -7,23 +7,24 @@
 #include <vector>
 
 #include "deform/pose_stack.h"
-#include "engine/green.h"
+#include "solve/green.h"
 #include "support/meshes.h"
 #include "support/pose_modes.h"
 
 namespace {
 
-using hf_inner::Handles;
-using hf_inner::HandleTransform;
-using hf_inner::PoseStack;
 using hf_inner::Vec3;
+using hf_inner::deform::Handles;
+using hf_inner::deform::HandleTransform;
+using hf_inner::deform::PoseStack;
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 // Regions of 1 to `most` vertices around vertices that lie far apart.
-std::vector<std::vector<std::int32_t>> regions_on(const hf_inner::Core& core, std::int32_t count, std::int32_t most) {
+std::vector<std::vector<std::int32_t>> regions_on(const hf_inner::surface::Core& core, std::int32_t count,
+                                                  std::int32_t most) {
   std::vector<std::vector<std::int32_t>> regions;
   for (std::int32_t i = 0; i < count; ++i) {
     const std::int32_t first = i * (core.size() / count);
@@ -39,17 +40,17 @@ class Sites : public testing::TestWithParam<std::int32_t> {};
 TEST_P(Sites, EveryHistoryOfHandlesGivesTheBitsOfAFreshSolver) {
   const auto core = hf_test::make_core(hf_test::torus(60, 40, 0.2));
   hf_inner::Memory& memory = *core->memory;
-  std::vector<hf_inner::Handle> all;
+  std::vector<hf_inner::deform::Handle> all;
   for (const auto& region : regions_on(*core, 24, GetParam()))
     all.push_back({static_cast<std::uint32_t>(all.size()),
-                   hf_inner::make_region(*core, {region.data(), region.size()}, 0, memory)});
-  const auto field_of = [&](hf_inner::SiteSolver& solver, const Handles& handles) {
-    const hf_inner::Reach reach(core->mesh, handles, memory);
+                   hf_inner::deform::make_region(*core, {region.data(), region.size()}, 0, memory)});
+  const auto field_of = [&](hf_inner::solve::SiteSolver& solver, const Handles& handles) {
+    const hf_inner::deform::Reach reach(core->mesh, handles, memory);
     const auto fields = solve_handle_fields(*core, solver, handles, reach, memory);
     return std::vector<double>(fields.values.data(), fields.values.data() + fields.values.size());
   };
   std::mt19937 random(5);
-  hf_inner::GreenSolver solver(core);
+  hf_inner::solve::GreenSolver solver(core);
   Handles present(&memory);
   int dense = 0, eliminated = 0;
   for (int step = 0; step < 60; ++step) {
@@ -57,14 +58,14 @@ TEST_P(Sites, EveryHistoryOfHandlesGivesTheBitsOfAFreshSolver) {
     if (step % 3 == 2 && next.size() > 1)
       next.erase(next.begin() + static_cast<std::ptrdiff_t>(random() % next.size()));
     for (std::uint32_t added = step % 3 == 2 ? 0 : 1 + random() % 3; added > 0; --added) {
-      const hf_inner::Handle& handle = all[random() % all.size()];
+      const hf_inner::deform::Handle& handle = all[random() % all.size()];
       bool there = false;
       for (const auto& h : next) there = there || h.number == handle.number;
       if (!there) next.push_back(handle);
     }
     set_handle_sites(*core, solver, present, next, memory);
     present = next;
-    hf_inner::GreenSolver batch(core), single(core);
+    hf_inner::solve::GreenSolver batch(core), single(core);
     set_handle_sites(*core, batch, Handles(&memory), present, memory);
     Handles some(&memory);
     for (const auto& handle : present) {
@@ -88,14 +89,14 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Sites, testing::Values(3, 40));
 TEST(Sites, AHandleMoreKeepsTheFactorThatEliminatesTheOthers) {
   const auto core = hf_test::make_core(hf_test::torus(60, 40, 0.2));
   hf_inner::Memory& memory = *core->memory;
-  hf_inner::GreenSolver solver(core);
+  hf_inner::solve::GreenSolver solver(core);
   Handles present(&memory);
   const auto add = [&](std::int32_t first, std::int32_t count) {
     std::vector<std::int32_t> region(static_cast<std::size_t>(count));
     for (std::int32_t k = 0; k < count; ++k) region[static_cast<std::size_t>(k)] = first + k;
     const Handles before(present, &memory);
     present.push_back({static_cast<std::uint32_t>(present.size()),
-                       hf_inner::make_region(*core, {region.data(), region.size()}, 0, memory)});
+                       hf_inner::deform::make_region(*core, {region.data(), region.size()}, 0, memory)});
     set_handle_sites(*core, solver, before, present, memory);
   };
   for (std::int32_t i = 0; i < 6; ++i) add(400 * i, 240);
@@ -119,7 +120,7 @@ void add_to(PoseStack& pose, Placed& handle) {
 }
 
 std::vector<double> restarted(PoseStack& pose, bool refine) {
-  hf_inner::DeformRequest request;
+  hf_inner::deform::DeformRequest request;
   request.restart = true;
   request.refine = refine ? 3 : 0;
   std::vector<double> out;
@@ -131,7 +132,7 @@ class Histories : public testing::TestWithParam<hf_test::DeformMode> {};
 
 TEST_P(Histories, ARestartedFrameHasTheBitsOfAFreshPose) {
   const auto core = hf_test::make_core(hf_test::torus(30, 20, 0.2));
-  hf_inner::PoseOptions options;
+  hf_inner::deform::PoseOptions options;
   options.scheme = hf_test::scheme_of(GetParam());
   const auto pose = PoseStack::make(core, options);
   const auto regions = regions_on(*core, 12, 6);
@@ -145,7 +146,7 @@ TEST_P(Histories, ARestartedFrameHasTheBitsOfAFreshPose) {
       present.erase(present.begin() + static_cast<std::ptrdiff_t>(i));
     }
     Placed fresh{0, static_cast<std::uint32_t>(random() % 3), regions[random() % regions.size()], {}};
-    fresh.transform = {hf_inner::exponential({number(), number(), number()}), {number(), number(), number()}};
+    fresh.transform = {hf_inner::deform::exponential({number(), number(), number()}), {number(), number(), number()}};
     bool there = false;
     for (const Placed& other : present) there = there || other.region == fresh.region;
     if (!there) {

@@ -12,6 +12,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 using Surface = std::vector<Vec3>;
 
@@ -28,15 +29,15 @@ const Case& cactus() {
   static const Case scene = cactus_bend(70, 1800);
   return scene;
 }
-std::shared_ptr<const Core> cactus_core() {
-  static const std::shared_ptr<const Core> core = hf_test::make_core(cactus().mesh);
+std::shared_ptr<const surface::Core> cactus_core() {
+  static const std::shared_ptr<const surface::Core> core = hf_test::make_core(cactus().mesh);
   return core;
 }
 
 // A cactus that is bent while its arm gets a handle.
 struct Plant {
   const Case& scene = cactus();
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   std::shared_ptr<PoseStack> pose;
   std::vector<std::uint32_t> numbers{0, 0};
   double box;

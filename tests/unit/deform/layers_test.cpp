@@ -17,6 +17,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 using Regions = std::vector<std::vector<std::int32_t>>;
 
@@ -47,7 +48,7 @@ const Case& small_cactus() {
 
 struct Plant {
   const Case& scene = small_cactus();
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   std::shared_ptr<PoseStack> pose;
   std::vector<std::uint32_t> coarse;
   Regions arms;
@@ -470,14 +471,14 @@ TEST(RegionsNear, ListsARegionForEachPoint) {
   const double points[] = {0, 0, 0, 5, 5, 0.2}, radii[] = {0.5, 1.1};
   Vector<std::uint32_t> start(core->memory.get());
   Vector<std::int32_t> vertices(core->memory.get());
-  regions_near(*core, Places(2, nullptr, nullptr, points), radii, start, vertices);
+  regions_near(*core, mesh::Places(2, nullptr, nullptr, points), radii, start, vertices);
   ASSERT_EQ(start.size(), 3u);
   EXPECT_EQ(start[1], 1u);
   EXPECT_EQ(start[2], 6u);  // the middle and its four neighbours
   EXPECT_EQ(core->mesh.given_of_inner[vertices[0]], 0);
   const double bad[] = {0.5, -1};
   try {
-    regions_near(*core, Places(2, nullptr, nullptr, points), bad, start, vertices);
+    regions_near(*core, mesh::Places(2, nullptr, nullptr, points), bad, start, vertices);
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_INVALID_ARGUMENT);

@@ -14,6 +14,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 
 constexpr std::uint32_t hand = 2;
@@ -37,7 +38,7 @@ struct Parts {
       handles.push_back(
           {static_cast<std::uint32_t>(handles.size()), make_region(core, body.region_at(joint), 0, memory)});
     reach = std::make_unique<Reach>(core.mesh, handles, memory);
-    const auto sites = SiteSolver::make(body.creature.core);
+    const auto sites = solve::SiteSolver::make(body.creature.core);
     set_handle_sites(core, *sites, Handles(&memory), handles, memory);
     fields = std::make_unique<HandleFields>(solve_handle_fields(core, *sites, handles, *reach, memory));
   }
@@ -45,14 +46,14 @@ struct Parts {
     const Vector<std::int32_t> found = limb_of(core, *reach, *fields, handle, *core.memory);
     return {found.begin(), found.end()};
   }
-  const Core& core;
+  const surface::Core& core;
   Handles handles;
   std::unique_ptr<Reach> reach;
   std::unique_ptr<HandleFields> fields;
 };
 
 // Changes of length, as shares, of the edges of a triangulation within a part; the 95th of 100.
-double changed_length(const Core& core, const Region& part, const Surface& x) {
+double changed_length(const surface::Core& core, const Region& part, const Surface& x) {
   std::vector<std::uint8_t> inside(static_cast<std::size_t>(core.size()), 0);
   for (const std::int32_t v : part) inside[v] = 1;
   std::vector<double> change;
@@ -111,7 +112,7 @@ TEST(Limbs, ATubeBetweenTwoHandlesIsAllLimb) {
     handles.push_back({static_cast<std::uint32_t>(handles.size()), make_region(*core, region, 0, memory)});
   }
   const Reach reach(core->mesh, handles, memory);
-  const auto sites = SiteSolver::make(core);
+  const auto sites = solve::SiteSolver::make(core);
   set_handle_sites(*core, *sites, Handles(&memory), handles, memory);
   const HandleFields fields = solve_handle_fields(*core, *sites, handles, reach, memory);
   for (const std::int32_t handle : {0, 1}) {
@@ -170,7 +171,7 @@ TEST(Limbs, AStepSolvesTheEquationsOfTheLimb) {
   const Vec3 way{0.1, 0.2 * plain.box, 0.1};
   const Surface x = plain.drag(hand, way), y = kept.drag(hand, way);
   const Parts parts(plain, {"foot_L", "foot_R", "hand_L"});
-  const Core& core = parts.core;
+  const surface::Core& core = parts.core;
   const SymmetricMatrix& k = core.laplacian;
   const Region limb = parts.limb(2);
   const auto rotation = [&](std::int32_t v) {

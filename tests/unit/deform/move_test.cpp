@@ -6,13 +6,14 @@
 
 #include "cases.h"
 #include "deform/pose_stack.h"
-#include "engine/edited_core.h"
-#include "engine/link_change.h"
 #include "support/parts.h"
+#include "surface/edited_core.h"
+#include "surface/link_change.h"
 
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 using Surface = std::vector<Vec3>;
 using Region = std::vector<std::int32_t>;
@@ -22,8 +23,8 @@ constexpr double always_rows = 1e9;  // small meshes would be factorised again
 
 // A beam along x from 0 to 3, and a blade beside it that no link holds. Vertices are moved at random: on a regular mesh
 // bands end exactly at vertices, and rounding decides whether two pieces of a band are one.
-std::shared_ptr<const Core> beam_and_blade() {
-  static const std::shared_ptr<const Core> core = [] {
+std::shared_ptr<const surface::Core> beam_and_blade() {
+  static const std::shared_ptr<const surface::Core> core = [] {
     hf_test::PlainMesh mesh = hf_test::box(14, {3, 0.4, 0.4}, {0, 0, 0});
     hf_test::append(mesh, hf_test::box(10, {1.8, 0.1, 0.25}, {0, 0.45, 0.07}), 0.9);
     std::mt19937 random(3);
@@ -54,9 +55,9 @@ class Moves : public ::testing::Test {
       if (norm(plain_->mesh.positions[v] - centre) < radius) (*out)[v] = s;
     return out;
   }
-  std::shared_ptr<const Geometry> with_link(const Core& from) {
-    const Mesh& mesh = plain_->mesh;
-    Link link;
+  std::shared_ptr<const surface::Geometry> with_link(const surface::Core& from) {
+    const mesh::Mesh& mesh = plain_->mesh;
+    mesh::Link link;
     do {
       link.vertex = below(mesh.vertex_count());
       link.corner[0] = below(mesh.vertex_count());
@@ -65,10 +66,11 @@ class Moves : public ::testing::Test {
     link.weight = number(0.5, 20);
     const std::size_t present = from.geometry->links ? from.geometry->links->links.size() : 0;
     const std::vector<std::uint8_t> removed(present, number(0, 1) < 0.3);
-    return Geometry::relinked(from.geometry, edited_links(mesh, from.geometry->links.get(), {removed.data(), present},
-                                                          {&link, 1}, *from.memory));
+    return surface::Geometry::relinked(
+        from.geometry,
+        surface::edited_links(mesh, from.geometry->links.get(), {removed.data(), present}, {&link, 1}, *from.memory));
   }
-  std::shared_ptr<PoseStack> pose_on(std::shared_ptr<const Core> core, const Options& options) {
+  std::shared_ptr<PoseStack> pose_on(std::shared_ptr<const surface::Core> core, const Options& options) {
     const auto pose = PoseStack::make(core, {});
     numbers_.clear();
     const auto add = [&](const std::function<bool(Vec3)>& inside, std::uint32_t layer = 0, bool free = false) {
@@ -116,21 +118,21 @@ class Moves : public ::testing::Test {
   void expect_new_poses(const Options& options, int moves, bool links, double tolerance) {
     const auto pose = pose_on(plain_, options);
     frame(*pose, false);
-    std::shared_ptr<const Core> core = plain_;
+    std::shared_ptr<const surface::Core> core = plain_;
     double worst = 0, worst_field = 0;
     for (int k = 0; k < moves; ++k) {
       if (k % 5 == 4) {
         core = plain_;
       } else {
-        SurfaceEdit edit(core->stiffness, nullptr);
+        surface::SurfaceEdit edit(core->stiffness, nullptr);
         if (!links || k % 2 == 0) edit.stiffness = stroke(core->stiffness);
         if (links && k % 3 != 1) edit.geometry = with_link(*core);
-        core = edit_core(core, edit, k % 4 == 3 ? 1 : always_rows);
+        core = surface::edit_core(core, edit, k % 4 == 3 ? 1 : always_rows);
       }
       pose->move_to(core);
-      CoreOptions anew;
+      surface::CoreOptions anew;
       anew.stiffness = core->stiffness;
-      const auto fresh = pose_on(Core::make(core->geometry, anew), options);
+      const auto fresh = pose_on(surface::Core::make(core->geometry, anew), options);
       for (const std::uint32_t number : numbers_) {
         const auto a = pose->field(number), b = fresh->field(number);
         for (std::int32_t v = 0; v < core->size(); ++v) worst_field = std::max(worst_field, std::fabs(a[v] - b[v]));
@@ -144,7 +146,7 @@ class Moves : public ::testing::Test {
   }
 
   std::mt19937 random_{7};
-  std::shared_ptr<const Core> plain_ = beam_and_blade();
+  std::shared_ptr<const surface::Core> plain_ = beam_and_blade();
   std::vector<std::uint32_t> numbers_;
 };
 
@@ -192,7 +194,7 @@ TEST_F(Moves, AFaintStrokeMovesNothing) {
       const auto stiffness =
           std::make_shared<Vector<double>>(static_cast<std::size_t>(plain_->size()), 1.0, plain_->memory.get());
       for (std::int32_t v = 0; v < plain_->size(); v += 3) (*stiffness)[v] = 1 + 1e-9;
-      const auto core = edit_core(plain_, {stiffness, nullptr}, always_rows);
+      const auto core = surface::edit_core(plain_, {stiffness, nullptr}, always_rows);
       pose->move_to(core);
       EXPECT_LT(distance(frame(*pose, false, 1), before), 1e-6) << free << following;
       EXPECT_LT(distance(frame(*pose, false), before), 1e-6) << free << following;

@@ -8,10 +8,11 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 
 struct PaperRig {
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   std::shared_ptr<Pose> pose;
   std::vector<std::uint32_t> handles;
   RigidMotion motion{about({1, 2, -1}, 0.7), {0.3, -0.2, 0.4}};  // in the mesh's own unit
@@ -45,8 +46,8 @@ TEST(PaperScheme, FindsARigidMotionOfTheSurfaceAndRestsThere) {
   const PaperRig rig;
   const ClusterWeights& weights = *rig.pose->weights();
   Memory& memory = *rig.core->memory;
-  const PaperSystem system(*rig.core, weights, memory);
-  PaperState state(memory);
+  const peers::PaperSystem system(*rig.core, weights, memory);
+  peers::PaperState state(memory);
   state.fit(system);
   std::vector<Vec3> moved;
   for (const Vec3& p : rig.core->mesh.positions) moved.push_back(apply(rig.motion, p));
@@ -96,8 +97,8 @@ TEST(PaperScheme, AMotionWithoutTurnsIsNotTakenForRest) {
   const auto pose = Pose::make(core, options);
   add(*pose, {select(*core, c.regions[0]), select(*core, c.regions[1])});
   const ClusterWeights& weights = *pose->weights();
-  const PaperSystem system(*core, weights, *core->memory);
-  PaperState state(*core->memory);
+  const peers::PaperSystem system(*core, weights, *core->memory);
+  peers::PaperState state(*core->memory);
   state.fit(system);
   const Affine rest{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, pulled{{{1, 0, 0, 0}, {0, 1, 0, 5}, {0, 0, 1, 0}}};
   std::vector<Affine> transforms(static_cast<std::size_t>(weights.cluster_count), rest);

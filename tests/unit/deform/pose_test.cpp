@@ -16,6 +16,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 
 struct RandomMotion {
@@ -372,7 +373,7 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
               std::string::npos)
         << error.what();
   }
-  EXPECT_EQ(try_add({{7, Mesh::none}}, &index), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(try_add({{7, mesh::Mesh::none}}, &index), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(try_add({{7, core->size()}}, &index), HF_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(try_add(std::vector<std::vector<std::int32_t>>(255, {7}), &index), HF_ERROR_TOO_LARGE);

@@ -12,9 +12,9 @@
 
 namespace {
 
-using hf_inner::HandleProposal;
-using hf_inner::HandleReason;
 using hf_inner::Vec3;
+using hf_inner::deform::HandleProposal;
+using hf_inner::deform::HandleReason;
 using hf_test::PlainMesh;
 
 constexpr std::uint32_t none = 0xffffffffu;
@@ -44,15 +44,16 @@ PlainMesh tube(std::uint32_t around, std::uint32_t rings, double length) {
   return mesh;
 }
 
-std::vector<HandleProposal> propose(const hf_inner::Core& core, const hf_inner::ProposalOptions& options) {
+std::vector<HandleProposal> propose(const hf_inner::surface::Core& core,
+                                    const hf_inner::deform::ProposalOptions& options) {
   const auto found = propose_handles(core, options).list;
   return {found.begin(), found.end()};
 }
 
-hf_inner::ProposalOptions plain() {
-  hf_inner::ProposalOptions options;
+hf_inner::deform::ProposalOptions plain() {
+  hf_inner::deform::ProposalOptions options;
   options.least_length_share = 0.05;
-  options.limit = hf_inner::handle_limit;
+  options.limit = hf_inner::deform::handle_limit;
   return options;
 }
 
@@ -65,11 +66,11 @@ std::vector<HandleProposal> of(const std::vector<HandleProposal>& list, HandleRe
 }
 
 // The regions of all are disjoint, and pinned ones come first.
-void expect_list(const hf_inner::Core& core, const std::vector<HandleProposal>& list) {
+void expect_list(const hf_inner::surface::Core& core, const std::vector<HandleProposal>& list) {
   std::vector<int> owners(static_cast<std::size_t>(core.size()), 0);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto region =
-        hf_inner::RegionSearch(core).near(core.mesh.to_inner(list[i].position), list[i].radius / core.mesh.scale);
+    const auto region = hf_inner::deform::RegionSearch(core).near(core.mesh.to_inner(list[i].position),
+                                                                  list[i].radius / core.mesh.scale);
     for (const std::int32_t v : region) ++owners[static_cast<std::size_t>(v)];
     EXPECT_GE(region.size(), 1u);
     if (i == 0) continue;
@@ -138,8 +139,8 @@ TEST(HandleProposals, the_region_of_the_trunk_goes_around_the_axis) {
   const auto core = hf_test::make_core(tube(16, 101, 20));
   const auto trunk = of(propose(*core, plain()), HandleReason::middle);
   ASSERT_EQ(trunk.size(), 1u);
-  const auto region =
-      hf_inner::RegionSearch(*core).near(core->mesh.to_inner(trunk[0].position), trunk[0].radius / core->mesh.scale);
+  const auto region = hf_inner::deform::RegionSearch(*core).near(core->mesh.to_inner(trunk[0].position),
+                                                                 trunk[0].radius / core->mesh.scale);
   double low = 0, high = 0;
   for (const std::int32_t v : region) {
     const Vec3 p = core->mesh.to_given(core->mesh.positions[static_cast<std::size_t>(v)]);

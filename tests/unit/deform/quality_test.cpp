@@ -8,6 +8,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 
 struct Both {

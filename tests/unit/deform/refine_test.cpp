@@ -6,11 +6,12 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 
 // use(w, neighbour) for the ring of a vertex in the triangulation of the operator.
 template <class Use>
-void for_operator_ring(const hf_inner::Core& core, std::int32_t v, Use&& use) {
+void for_operator_ring(const hf_inner::surface::Core& core, std::int32_t v, Use&& use) {
   const hf_inner::SymmetricMatrix& k = core.laplacian;
   for (std::int32_t e = k.column_start[v]; e < k.column_start[v + 1]; ++e) {
     if (k.row[e] != v) use(-k.value[e], k.row[e]);
@@ -18,7 +19,7 @@ void for_operator_ring(const hf_inner::Core& core, std::int32_t v, Use&& use) {
 }
 
 // The rotation of every ring in x against the rest p; vertices of handles have those of their handles.
-std::vector<Quaternion> operator_rotations(const hf_inner::Core& core, const std::vector<std::int32_t>& owner,
+std::vector<Quaternion> operator_rotations(const hf_inner::surface::Core& core, const std::vector<std::int32_t>& owner,
                                            const std::vector<Quaternion>& turn, const std::vector<Vec3>& p,
                                            const std::vector<Vec3>& x) {
   std::vector<Quaternion> out;
@@ -30,8 +31,8 @@ std::vector<Quaternion> operator_rotations(const hf_inner::Core& core, const std
   return out;
 }
 
-double operator_energy(const hf_inner::Core& core, const std::vector<Quaternion>& rotation, const std::vector<Vec3>& p,
-                       const std::vector<Vec3>& x) {
+double operator_energy(const hf_inner::surface::Core& core, const std::vector<Quaternion>& rotation,
+                       const std::vector<Vec3>& p, const std::vector<Vec3>& x) {
   double sum = 0;
   for (std::int32_t v = 0; v < core.size(); ++v) {
     for_operator_ring(core, v, [&](double w, std::int32_t u) {

@@ -16,6 +16,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 using Surface = std::vector<Vec3>;
 using Region = std::vector<std::int32_t>;
@@ -27,22 +28,22 @@ hf_test::PlainMesh beam_and_blade() {
   return mesh;
 }
 
-std::shared_ptr<const Core> linked_core(const hf_test::PlainMesh& mesh) {
-  MeshInput input;
+std::shared_ptr<const surface::Core> linked_core(const hf_test::PlainMesh& mesh) {
+  mesh::MeshInput input;
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = mesh.triangle_count();
   input.positions = ConstRows(mesh.positions.data(), 3 * sizeof(double));
   input.triangles = IndexRows(mesh.triangles.data(), 3);
-  LinkOptions links;
-  links.mode = LinkMode::pieces;
-  links.distance = default_link_distance;
-  links.overlay = default_overlay;
-  const auto plain = Geometry::make(input, {}, std::make_shared<Memory>(), std::make_shared<JobRunner>(1u));
-  return Core::make(Geometry::linked(plain, links), {});
+  mesh::LinkOptions links;
+  links.mode = mesh::LinkMode::pieces;
+  links.distance = mesh::default_link_distance;
+  links.overlay = mesh::default_overlay;
+  const auto plain = surface::Geometry::make(input, {}, std::make_shared<Memory>(), std::make_shared<JobRunner>(1u));
+  return surface::Core::make(surface::Geometry::linked(plain, links), {});
 }
 
 struct Scene {
-  std::shared_ptr<const Core> core = shared_core();
+  std::shared_ptr<const surface::Core> core = shared_core();
   std::shared_ptr<PoseStack> pose = PoseStack::make(core, {});
   double box = core->mesh.scale;
   Region blade = select(*core, [](Vec3 p) { return p.y > 0.402; });
@@ -50,8 +51,8 @@ struct Scene {
   Region end = select(*core, [](Vec3 p) { return p.x > 2.4 && p.y < 0.402; });
   Region middle = select(*core, [](Vec3 p) { return p.x > 1.3 && p.x < 1.7 && p.y < 0.402; });
   Region tip = select(*core, [](Vec3 p) { return p.y > 0.402 && p.x > 2.5; });
-  static std::shared_ptr<const Core> shared_core() {
-    static const std::shared_ptr<const Core> core = linked_core(beam_and_blade());
+  static std::shared_ptr<const surface::Core> shared_core() {
+    static const std::shared_ptr<const surface::Core> core = linked_core(beam_and_blade());
     return core;
   }
   std::uint32_t add(const Region& region, std::uint32_t layer = 0, const HandleKind& kind = {}) {
@@ -72,7 +73,7 @@ struct Scene {
   }
   // The largest change of an edge of the blade, as a share of it.
   double stretch(const Surface& x) const {
-    const Geometry& plain = core->geometry->unlinked();
+    const surface::Geometry& plain = core->geometry->unlinked();
     double most = 0;
     for (std::int32_t e = 0; e < plain.topology().edge_count(); ++e) {
       const std::int32_t i = plain.topology().first(e), j = plain.topology().second(e);
@@ -121,7 +122,7 @@ TEST(RigidPieces, OtherVerticesStayAndThePieceStaysWhereLinksHoldIt) {
   }
   Vec3 off;
   double count = 0;
-  for (const Link& link : scene.core->geometry->links->links) {
+  for (const mesh::Link& link : scene.core->geometry->links->links) {
     if (!in_blade[link.vertex]) continue;
     off = off + (x[link.vertex] - y[link.vertex]);
     ++count;
@@ -198,14 +199,14 @@ TEST(RigidPieces, EveryPieceIsMadeRigid) {
   Scene scene;
   const RigidPieces pieces(*scene.core, Region{scene.foot[0], scene.blade[0], scene.foot[1]}, *scene.core->memory);
   ASSERT_EQ(pieces.count(), 2u);
-  const Mesh& mesh = scene.core->mesh;
+  const mesh::Mesh& mesh = scene.core->mesh;
   Surface x, scratch(pieces.scratch_size());
   for (const Vec3& inner : mesh.positions) {
     const Vec3 p = mesh.to_given(inner);
     x.push_back({p.x, p.y + 0.1 * p.x * p.x, p.z});
   }
   pieces.make_rigid(x.data(), scratch.data());
-  const Topology& edges = scene.core->geometry->unlinked().topology();
+  const mesh::Topology& edges = scene.core->geometry->unlinked().topology();
   for (std::int32_t e = 0; e < edges.edge_count(); ++e) {
     const std::int32_t i = edges.first(e), j = edges.second(e);
     EXPECT_NEAR(norm(x[i] - x[j]), norm(mesh.to_given(mesh.positions[i]) - mesh.to_given(mesh.positions[j])), 1e-9);
@@ -215,7 +216,7 @@ TEST(RigidPieces, EveryPieceIsMadeRigid) {
 // A rigid fit takes the weighted centroid to the weighted centroid, so the centroid tells the weights.
 TEST(RigidPieces, VerticesOfLinksCountMost) {
   Scene scene;
-  const Core& core = *scene.core;
+  const surface::Core& core = *scene.core;
   const RigidPieces pieces(core, Region{scene.blade[0]}, *core.memory);
   Surface x, scratch(pieces.scratch_size());
   for (const Vec3& inner : core.mesh.positions) {
@@ -227,11 +228,11 @@ TEST(RigidPieces, VerticesOfLinksCountMost) {
   std::map<std::int32_t, double> held;
   double held_sum = 0, area_sum = 0;
   const auto hold = [&](std::int32_t v, double weight) {
-    if (v == Mesh::none || pieces.piece_of(v) < 0) return;
+    if (v == mesh::Mesh::none || pieces.piece_of(v) < 0) return;
     held[v] += weight;
     held_sum += weight;
   };
-  for (const Link& link : core.geometry->links->links) {
+  for (const mesh::Link& link : core.geometry->links->links) {
     hold(link.vertex, link.weight);
     for (int c = 0; c < 3; ++c) hold(link.corner[c], link.weight * link.share[c]);
   }

@@ -17,6 +17,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using deform_test::pi;
 
 Mat3 outer(Vec3 a, Vec3 b) {

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::deform;
 using namespace deform_test;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -125,8 +126,8 @@ TEST(Strain, LinesPointsAndBadNumbersAreUnderNoStress) {
 void expect_equilibrium(const Case& c, double border_stiffness) {
   Dragged d = drag(c, {}, 10, 5);
   for (int i = 0; i < 20; ++i) d.report = d.pose->deform({});
-  const Core& core = *d.core;
-  const Topology& topology = core.topology();
+  const surface::Core& core = *d.core;
+  const mesh::Topology& topology = core.topology();
   ASSERT_LT(topology.edge_count(), 50000) << "all edges must be in the sum";
   const ClusterWeights& weights = *d.pose->weights();
   const Rest& rest = d.pose->rest();

@@ -7,6 +7,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::detail;
 using namespace hf_test;
 
 Memory& memory_of(const Region& region) { return *region.core().memory; }

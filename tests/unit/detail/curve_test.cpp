@@ -6,13 +6,14 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::detail;
 using namespace hf_test;
 
 // A grid of 21 x 21 vertices, one unit apart.
 std::int32_t place(std::int32_t i, std::int32_t j) { return 21 * j + i; }
 
 // The curve through points, which must not cross itself.
-Numbers curve_on(const Core& core, const Numbers& points) {
+Numbers curve_on(const surface::Core& core, const Numbers& points) {
   const ClosedCurve curve = closed_curve(core, {points.data(), points.size()}, *core.memory);
   require_no_crossing(core, curve, *core.memory);
   return numbers(curve.vertices);
@@ -101,8 +102,8 @@ TEST(Curve, ThatDoesNotSeparateIsRefused) {
   const auto surface = surface_of(make_core(torus(12, 9, 0)));
   Region region(surface);
   const Numbers meridian{0, 3, 6};
-  std::vector<CurvePoint> points;
-  for (const std::int32_t v : meridian) points.push_back(at_vertex(v));
+  std::vector<mesh::CurvePoint> points;
+  for (const std::int32_t v : meridian) points.push_back(mesh::at_vertex(v));
   for (const CurveKind kind : {CurveKind::straight, CurveKind::edges}) {
     RegionEdit edit;
     edit.curve = points;
@@ -228,7 +229,8 @@ TEST(Curve, APointStandsForTheCornerOfItsLargestWeight) {
   const double weights[3][3] = {{0.5, 0.3, 0.2}, {0.2, 0.5, 0.3}, {0.3, 0.2, 0.5}};
   const std::int32_t corners[3] = {4, 6, 9};
   for (int k = 0; k < 3; ++k)
-    EXPECT_EQ(nearest_corner(CurvePoint{{4, 6, 9}, {weights[k][0], weights[k][1], weights[k][2]}}), corners[k]);
+    EXPECT_EQ(mesh::nearest_corner(mesh::CurvePoint{{4, 6, 9}, {weights[k][0], weights[k][1], weights[k][2]}}),
+              corners[k]);
 }
 
 TEST(Curve, PointsOfTwoComponentsAreRefused) {
@@ -237,12 +239,12 @@ TEST(Curve, PointsOfTwoComponentsAreRefused) {
   const auto core = make_core(two);
   const std::int32_t second = core->mesh.inner_of_given[25];
   const auto points = [](const Numbers& vertices) {
-    std::vector<CurvePoint> list;
-    for (const std::int32_t v : vertices) list.push_back(at_vertex(v));
+    std::vector<mesh::CurvePoint> list;
+    for (const std::int32_t v : vertices) list.push_back(mesh::at_vertex(v));
     return list;
   };
-  require_one_component(core->mesh, points({0, 1, 2}));
-  expect_error(HF_ERROR_INVALID_ARGUMENT, 2, [&] { require_one_component(core->mesh, points({0, 1, second})); });
+  mesh::require_one_component(core->mesh, points({0, 1, 2}));
+  expect_error(HF_ERROR_INVALID_ARGUMENT, 2, [&] { mesh::require_one_component(core->mesh, points({0, 1, second})); });
 }
 
 TEST(Region, PositionsAreTheCallersOrTheMeshs) {

@@ -23,24 +23,25 @@ using Numbers = std::vector<std::int32_t>;
 
 inline PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
 
-inline hf_inner::CoreOptions thin_plate() {
-  hf_inner::CoreOptions options;
-  options.field_kind = hf_inner::FieldKind::biharmonic;
+inline hf_inner::surface::CoreOptions thin_plate() {
+  hf_inner::surface::CoreOptions options;
+  options.field_kind = hf_inner::mesh::FieldKind::biharmonic;
   return options;
 }
 
 // The surface of a mesh as given.
-inline std::shared_ptr<const hf_inner::RegionSurface> surface_of(const std::shared_ptr<const hf_inner::Core>& core) {
+inline std::shared_ptr<const hf_inner::detail::RegionSurface> surface_of(
+    const std::shared_ptr<const hf_inner::surface::Core>& core) {
   hf_inner::Vector<hf_inner::Vec3> positions(core->mesh.report.vertex_count, core->memory.get());
   for (std::size_t v = 0; v < positions.size(); ++v)
     positions[v] = core->mesh.to_given(core->mesh.positions[static_cast<std::size_t>(core->mesh.inner_of_given[v])]);
-  return hf_inner::make_owner_in<hf_inner::RegionSurface>(core->memory, core, std::move(positions));
+  return hf_inner::make_owner_in<hf_inner::detail::RegionSurface>(core->memory, core, std::move(positions));
 }
 
 inline Numbers numbers(const hf_inner::Vector<std::int32_t>& list) { return {list.begin(), list.end()}; }
 
 // The vertices that a test on their place picks.
-inline Numbers vertices_where(const hf_inner::RegionSurface& surface,
+inline Numbers vertices_where(const hf_inner::detail::RegionSurface& surface,
                               const std::function<bool(hf_inner::Vec3)>& inside) {
   Numbers list;
   for (std::int32_t v = 0; v < surface.core->size(); ++v)
@@ -48,27 +49,27 @@ inline Numbers vertices_where(const hf_inner::RegionSurface& surface,
   return list;
 }
 
-inline void add(hf_inner::Region& region, const Numbers& vertices) {
-  hf_inner::RegionEdit edit;
+inline void add(hf_inner::detail::Region& region, const Numbers& vertices) {
+  hf_inner::detail::RegionEdit edit;
   edit.add = {vertices.data(), vertices.size()};
   region.edit(edit);
 }
 
-inline hf_inner::Region region_where(const std::shared_ptr<const hf_inner::RegionSurface>& surface,
-                                     const std::function<bool(hf_inner::Vec3)>& inside) {
-  hf_inner::Region region(surface);
+inline hf_inner::detail::Region region_where(const std::shared_ptr<const hf_inner::detail::RegionSurface>& surface,
+                                             const std::function<bool(hf_inner::Vec3)>& inside) {
+  hf_inner::detail::Region region(surface);
   add(region, vertices_where(*surface, inside));
   return region;
 }
 
 // The base by a dense solve of the whole saddle-point system, in units of the box.
-inline double distance_from_dense_base(const hf_inner::Region& region) {
-  const hf_inner::Core& core = region.core();
-  const hf_inner::RegionState& state = *region.state();
-  std::vector<hf_inner::Site> sites;
+inline double distance_from_dense_base(const hf_inner::detail::Region& region) {
+  const hf_inner::surface::Core& core = region.core();
+  const hf_inner::detail::RegionState& state = *region.state();
+  std::vector<hf_inner::solve::Site> sites;
   Eigen::MatrixXd values(state.shape->sites.size(), 3);
   for (std::size_t i = 0; i < state.shape->sites.size(); ++i) {
-    sites.push_back(hf_inner::Site::at_vertex(core.mesh, state.shape->sites[i]));
+    sites.push_back(hf_inner::solve::Site::at_vertex(core.mesh, state.shape->sites[i]));
     const hf_inner::Vec3 p = core.mesh.to_inner(region.surface()->position(state.shape->sites[i]));
     values.row(static_cast<Eigen::Index>(i)) << p.x, p.y, p.z;
   }

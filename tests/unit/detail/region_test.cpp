@@ -7,10 +7,11 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::detail;
 using namespace hf_test;
 
-std::shared_ptr<const RegionSurface> torus_surface(OperatorKind kind = OperatorKind::intrinsic_delaunay) {
-  CoreOptions options;
+std::shared_ptr<const RegionSurface> torus_surface(mesh::OperatorKind kind = mesh::OperatorKind::intrinsic_delaunay) {
+  surface::CoreOptions options;
   options.operator_kind = kind;
   return surface_of(make_core(torus(28, 18), 1, options));
 }
@@ -18,7 +19,8 @@ std::shared_ptr<const RegionSurface> torus_surface(OperatorKind kind = OperatorK
 bool right_end(Vec3 p) { return p.x > 1.7; }
 
 TEST(Region, MembraneIsTheFreshSolveOfItsRim) {
-  for (const OperatorKind kind : {OperatorKind::intrinsic_delaunay, OperatorKind::cotangent, OperatorKind::uniform}) {
+  for (const mesh::OperatorKind kind :
+       {mesh::OperatorKind::intrinsic_delaunay, mesh::OperatorKind::cotangent, mesh::OperatorKind::uniform}) {
     const Region region = region_where(torus_surface(kind), right_end);
     EXPECT_GT(region.state()->shape->inside.size(), 50u);
     EXPECT_EQ(numbers(region.state()->shape->sites), numbers(region.state()->shape->rim));
@@ -28,7 +30,7 @@ TEST(Region, MembraneIsTheFreshSolveOfItsRim) {
 
 // Weights of the intrinsic and of the clamped operator are not negative: u is a mean of rim values everywhere.
 TEST(Region, MembraneStaysInTheConvexHullOfItsRim) {
-  for (const OperatorKind kind : {OperatorKind::intrinsic_delaunay, OperatorKind::clamped}) {
+  for (const mesh::OperatorKind kind : {mesh::OperatorKind::intrinsic_delaunay, mesh::OperatorKind::clamped}) {
     const auto surface = torus_surface(kind);
     const Region region = region_where(surface, right_end);
     std::mt19937 random(5);
@@ -166,7 +168,7 @@ TEST(Region, AreasAreThoseOfItsTriangles) {
   const auto surface = torus_surface();
   const Region region = region_where(surface, right_end);
   double area = 0;
-  const Mesh& mesh = surface->core->mesh;
+  const mesh::Mesh& mesh = surface->core->mesh;
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* v = mesh.triangle(t);
     bool touches = false;

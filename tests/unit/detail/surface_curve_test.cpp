@@ -7,31 +7,33 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::detail;
 using namespace hf_test;
 
-using Points = std::vector<CurvePoint>;
+using Points = std::vector<mesh::CurvePoint>;
 
-SurfaceCurve curve_of(const Core& core, const Points& points) {
-  const Geometry& shape = core.geometry->unlinked();
-  return surface_curve(shape.mesh, shape.topology(), points, {}, *core.memory);
+mesh::SurfaceCurve curve_of(const surface::Core& core, const Points& points) {
+  const surface::Geometry& shape = core.geometry->unlinked();
+  return mesh::surface_curve(shape.mesh, shape.topology(), points, {}, *core.memory);
 }
 
-Numbers side_of(const Core& core, const Points& points, CurveSide side = CurveSide::smaller, std::int32_t seed = -1) {
-  const SurfaceCurve curve = curve_of(core, points);
+Numbers side_of(const surface::Core& core, const Points& points, CurveSide side = CurveSide::smaller,
+                std::int32_t seed = -1) {
+  const mesh::SurfaceCurve curve = curve_of(core, points);
   return numbers(surface_curve_side(core, points, curve, side, seed, *core.memory));
 }
 
 Points at_vertices(const Numbers& vertices) {
   Points points;
-  for (const std::int32_t v : vertices) points.push_back(at_vertex(v));
+  for (const std::int32_t v : vertices) points.push_back(mesh::at_vertex(v));
   return points;
 }
 
-Vec3 position(const Core& core, const SurfaceCurve& curve, const Points& points, std::size_t i) {
-  const PathPoint& place = curve.place[i];
+Vec3 position(const surface::Core& core, const mesh::SurfaceCurve& curve, const Points& points, std::size_t i) {
+  const mesh::PathPoint& place = curve.place[i];
   Vec3 p;
-  if (place.a == Mesh::none) {
-    const CurvePoint& point = points[static_cast<std::size_t>(curve.point_of[i])];
+  if (place.a == mesh::Mesh::none) {
+    const mesh::CurvePoint& point = points[static_cast<std::size_t>(curve.point_of[i])];
     for (int k = 0; k < 3; ++k)
       p = p + point.weight[k] * core.mesh.positions[static_cast<std::size_t>(point.corner[k])];
     return p;
@@ -41,12 +43,12 @@ Vec3 position(const Core& core, const SurfaceCurve& curve, const Points& points,
 }
 
 // A random point of a triangle: inside it, on an edge, or at a corner.
-CurvePoint draw(const Core& core, std::mt19937& random) {
+mesh::CurvePoint draw(const surface::Core& core, std::mt19937& random) {
   const auto below = [&](std::int32_t n) {
     return static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(n));
   };
   const std::int32_t* v = core.mesh.triangle(below(core.mesh.triangle_count()));
-  CurvePoint point{{v[0], v[1], v[2]}, {1, 0, 0}};
+  mesh::CurvePoint point{{v[0], v[1], v[2]}, {1, 0, 0}};
   const std::int32_t kind = below(4);
   if (kind > 0) {
     double sum = 0;
@@ -65,13 +67,13 @@ CurvePoint draw(const Core& core, std::mt19937& random) {
 TEST(SurfaceCurve, PathsAreShortestAndRunThroughTheirTriangles) {
   for (const PlainMesh& mesh : {torus(28, 18), plain(samples::sphere(3)), grid(12, 9)}) {
     const auto core = make_core(mesh);
-    const Topology& topology = core->geometry->unlinked().topology();
-    const TriangleSides sides(core->mesh, topology, *core->memory);
+    const mesh::Topology& topology = core->geometry->unlinked().topology();
+    const mesh::TriangleSides sides(core->mesh, topology, *core->memory);
     std::mt19937 random(3);
     for (int round = 0; round < 60; ++round) {
       Points points;
       for (int i = 0; i < 4; ++i) points.push_back(draw(*core, random));
-      const SurfaceCurve curve = curve_of(*core, points);
+      const mesh::SurfaceCurve curve = curve_of(*core, points);
       std::vector<double> length(points.size());
       for (std::size_t i = 0; i < curve.place.size(); ++i) {
         const std::size_t next = (i + 1) % curve.place.size();
@@ -81,14 +83,14 @@ TEST(SurfaceCurve, PathsAreShortestAndRunThroughTheirTriangles) {
         const std::int32_t* v = core->mesh.triangle(curve.triangle[i]);
         for (const std::size_t p : {i, next}) {
           for (const std::int32_t corner : {curve.place[p].a, curve.place[p].b})
-            EXPECT_TRUE(corner == Mesh::none || corner == v[0] || corner == v[1] || corner == v[2]);
+            EXPECT_TRUE(corner == mesh::Mesh::none || corner == v[0] || corner == v[1] || corner == v[2]);
         }
       }
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const CurvePoint &a = points[i], &b = points[(i + 1) % points.size()];
-        const GeodesicPoint from(sides, a.corner, a.weight, *core->memory),
+        const mesh::CurvePoint &a = points[i], &b = points[(i + 1) % points.size()];
+        const mesh::GeodesicPoint from(sides, a.corner, a.weight, *core->memory),
             to(sides, b.corner, b.weight, *core->memory);
-        EXPECT_NEAR(length[i], shortest_path(sides, from, to, *core->memory).length, 1e-7) << round << ", " << i;
+        EXPECT_NEAR(length[i], mesh::shortest_path(sides, from, to, *core->memory).length, 1e-7) << round << ", " << i;
       }
     }
   }
@@ -110,7 +112,7 @@ TEST(SurfaceCurve, SidesAreThoseOfWindingNumbersInThePlane) {
       Points points;
       for (std::uint32_t i = 0, count = 3 + random() % 4; i < count; ++i) points.push_back(draw(*core, random));
       std::vector<Vec3> corner;
-      for (const CurvePoint& point : points) {
+      for (const mesh::CurvePoint& point : points) {
         Vec3 p;
         for (int k = 0; k < 3; ++k)
           p = p + point.weight[k] * core->mesh.positions[static_cast<std::size_t>(point.corner[k])];
@@ -201,7 +203,8 @@ TEST(SurfaceCurve, MayUseBorders) {
   for (const CurveSide which : {CurveSide::smaller, CurveSide::larger})
     EXPECT_EQ(side_of(*core, at_vertices({at(0, 0), at(20, 0), at(20, 20), at(0, 20)}), which).size(), 19u * 19u);
   // a triangle whose one side is half of an edge at the border
-  const Points corner = {at_vertex(at(0, 0)), at_vertex(at(5, 0)), {{at(0, 4), at(0, 5), Mesh::none}, {0.5, 0.5, 0}}};
+  const Points corner = {
+      mesh::at_vertex(at(0, 0)), mesh::at_vertex(at(5, 0)), {{at(0, 4), at(0, 5), mesh::Mesh::none}, {0.5, 0.5, 0}}};
   EXPECT_EQ(side_of(*core, corner).size(), 6u);
   index_of_failure(HF_ERROR_INVALID_ARGUMENT, [&] { side_of(*core, at_vertices({at(1, 0), at(3, 0), at(2, 0)})); });
 }

@@ -5,19 +5,20 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::detail;
 using namespace hf_test;
 
 // The clamped plate by itself: K_II u = -K_IS p, dense, with K from the core and everything off I held.
 TEST(ThinPlate, IsTheClampedProblemOfItsSurroundings) {
   struct Case {
-    OperatorKind kind;
+    mesh::OperatorKind kind;
     std::int32_t formed_valence;  // 3: the core does not form K
   };
-  for (const Case given : {Case{OperatorKind::intrinsic_delaunay, most_formed_valence},
-                           {OperatorKind::cotangent, 1000},
-                           {OperatorKind::intrinsic_delaunay, 3},
-                           {OperatorKind::cotangent, 3}}) {
-    CoreOptions options = thin_plate();
+  for (const Case given : {Case{mesh::OperatorKind::intrinsic_delaunay, surface::most_formed_valence},
+                           {mesh::OperatorKind::cotangent, 1000},
+                           {mesh::OperatorKind::intrinsic_delaunay, 3},
+                           {mesh::OperatorKind::cotangent, 3}}) {
+    surface::CoreOptions options = thin_plate();
     options.operator_kind = given.kind;
     options.formed_valence = given.formed_valence;
     const auto surface = surface_of(make_core(torus(28, 18), 1, options));
@@ -62,7 +63,7 @@ TEST(ThinPlate, IsTheClampedProblemOfItsSurroundings) {
 
 // Mean angle between the normals on both sides of the edges where the region meets the surface, in degrees.
 double crease(const RegionSurface& surface, const RegionState& state) {
-  const Mesh& mesh = surface.core->mesh;
+  const mesh::Mesh& mesh = surface.core->mesh;
   const Vector<Vec3> local = morphed_positions(surface, state, 1.0, *surface.core->memory);
   const auto place = [&](std::int32_t v) {
     const std::int32_t l = state.shape->local[static_cast<std::size_t>(v)];
@@ -75,7 +76,7 @@ double crease(const RegionSurface& surface, const RegionState& state) {
     const std::int32_t* v = mesh.triangle(t);
     return unit_normal(cross(place(v[1]) - place(v[0]), place(v[2]) - place(v[0])));
   };
-  const Topology& topology = surface.core->topology();
+  const mesh::Topology& topology = surface.core->topology();
   double sum = 0, count = 0;
   for (std::size_t e = 0; e < static_cast<std::size_t>(topology.edge_count()); ++e) {
     const std::size_t first = static_cast<std::size_t>(topology.edge_triangle_start[e]);

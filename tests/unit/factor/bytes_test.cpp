@@ -17,22 +17,22 @@ class FactorBytes : public testing::Test {
   static constexpr std::uint64_t matrix_hash = 0x1234;
   static constexpr std::size_t header = 128;
 
-  std::shared_ptr<const hf_inner::Factor> make(const hf_inner::SymmetricMatrix& a, hf_inner::JobRunner& jobs) {
-    return hf_inner::Factor::make(a, {}, hf_inner::FactorOptions{}, memory, jobs);
+  std::shared_ptr<const hf_inner::factor::Factor> make(const hf_inner::SymmetricMatrix& a, hf_inner::JobRunner& jobs) {
+    return hf_inner::factor::Factor::make(a, {}, hf_inner::factor::FactorOptions{}, memory, jobs);
   }
-  std::shared_ptr<const hf_inner::Factor> make(const hf_inner::SymmetricMatrix& a) { return make(a, one); }
-  std::vector<std::uint8_t> save(const hf_inner::Factor& factor) {
-    std::vector<std::uint8_t> bytes(hf_inner::saved_factor_size(factor), 0xAB);
-    hf_inner::save_factor(factor, matrix_hash, {bytes.data(), bytes.size()}, memory, two);
+  std::shared_ptr<const hf_inner::factor::Factor> make(const hf_inner::SymmetricMatrix& a) { return make(a, one); }
+  std::vector<std::uint8_t> save(const hf_inner::factor::Factor& factor) {
+    std::vector<std::uint8_t> bytes(hf_inner::factor::saved_factor_size(factor), 0xAB);
+    hf_inner::factor::save_factor(factor, matrix_hash, {bytes.data(), bytes.size()}, memory, two);
     return bytes;
   }
-  std::shared_ptr<const hf_inner::Factor> load(hf_inner::Span<const std::uint8_t> bytes, std::int32_t n,
-                                               bool borrow = false) {
-    hf_inner::LoadOptions options;
+  std::shared_ptr<const hf_inner::factor::Factor> load(hf_inner::Span<const std::uint8_t> bytes, std::int32_t n,
+                                                       bool borrow = false) {
+    hf_inner::factor::LoadOptions options;
     options.unknowns = n;
     options.matrix_hash = matrix_hash;
     options.borrow = borrow;
-    return hf_inner::load_factor(bytes, options, memory, two);
+    return hf_inner::factor::load_factor(bytes, options, memory, two);
   }
   hf_result code_of(const std::vector<std::uint8_t>& bytes, std::int32_t n) {
     try {
@@ -44,10 +44,10 @@ class FactorBytes : public testing::Test {
   }
   // Both checksums of changed bytes are set right, so that the other checks have to hold alone.
   void repair(std::vector<std::uint8_t>& bytes) {
-    const std::uint64_t body = hf_inner::hash_bytes(bytes.data() + header, bytes.size() - header, memory, one,
-                                                    [](std::uint64_t, std::uint64_t) {});
+    const std::uint64_t body = hf_inner::factor::hash_bytes(bytes.data() + header, bytes.size() - header, memory, one,
+                                                            [](std::uint64_t, std::uint64_t) {});
     std::memcpy(bytes.data() + 88, &body, 8);
-    const std::uint64_t head = hf_inner::hash_piece(bytes.data(), header - 8);
+    const std::uint64_t head = hf_inner::factor::hash_piece(bytes.data(), header - 8);
     std::memcpy(bytes.data() + header - 8, &head, 8);
   }
   // A copy aligned for reading in place.
@@ -91,21 +91,21 @@ TEST_F(FactorBytes, a_loaded_factor_sweeps_to_the_same_bits_and_refactors) {
 
 TEST_F(FactorBytes, the_hash_is_the_same_for_any_threads_and_sees_every_bit) {
   for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{63}, std::size_t{64}, std::size_t{200},
-                                   static_cast<std::size_t>(hf_inner::hash_piece_bytes) + 13}) {
+                                   static_cast<std::size_t>(hf_inner::factor::hash_piece_bytes) + 13}) {
     std::vector<std::uint8_t> bytes(length);
     for (std::size_t k = 0; k < length; ++k) bytes[k] = static_cast<std::uint8_t>(k * 37 + 5);
-    const std::uint64_t expected = hf_inner::hash_array(bytes.data(), length, memory, one);
-    EXPECT_EQ(hf_inner::hash_array(bytes.data(), length, memory, two), expected);
+    const std::uint64_t expected = hf_inner::factor::hash_array(bytes.data(), length, memory, one);
+    EXPECT_EQ(hf_inner::factor::hash_array(bytes.data(), length, memory, two), expected);
     const std::size_t step = length > 1000 ? 997 : 1;
     for (std::size_t k = 0; k < length; k += step) {
       for (int bit = 0; bit < 8; ++bit) {
         bytes[k] ^= static_cast<std::uint8_t>(1 << bit);
-        EXPECT_NE(hf_inner::hash_array(bytes.data(), length, memory, one), expected);
+        EXPECT_NE(hf_inner::factor::hash_array(bytes.data(), length, memory, one), expected);
         bytes[k] ^= static_cast<std::uint8_t>(1 << bit);
       }
     }
     bytes.push_back(0);
-    EXPECT_NE(hf_inner::hash_array(bytes.data(), length + 1, memory, one), expected);
+    EXPECT_NE(hf_inner::factor::hash_array(bytes.data(), length + 1, memory, one), expected);
   }
 }
 
@@ -113,17 +113,17 @@ TEST_F(FactorBytes, the_hash_of_a_matrix_sees_pattern_numbers_and_grounds) {
   hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 9, 8);
   const std::vector<std::int32_t> ground = {0, 40};
   const std::vector<double> weight = {1.0, 2.0};
-  const std::uint64_t expected = hf_inner::hash_matrix(a, ground, weight, memory, one);
-  EXPECT_EQ(hf_inner::hash_matrix(a, ground, weight, memory, two), expected);
+  const std::uint64_t expected = hf_inner::factor::hash_matrix(a, ground, weight, memory, one);
+  EXPECT_EQ(hf_inner::factor::hash_matrix(a, ground, weight, memory, two), expected);
   a.value[17] = std::nextafter(a.value[17], 1e300);
-  EXPECT_NE(hf_inner::hash_matrix(a, ground, weight, memory, one), expected);
+  EXPECT_NE(hf_inner::factor::hash_matrix(a, ground, weight, memory, one), expected);
   a.value[17] = std::nextafter(a.value[17], -1e300);
-  EXPECT_EQ(hf_inner::hash_matrix(a, ground, weight, memory, one), expected);
+  EXPECT_EQ(hf_inner::factor::hash_matrix(a, ground, weight, memory, one), expected);
   a.row[3] += 1;
-  EXPECT_NE(hf_inner::hash_matrix(a, ground, weight, memory, one), expected);
+  EXPECT_NE(hf_inner::factor::hash_matrix(a, ground, weight, memory, one), expected);
   a.row[3] -= 1;
-  EXPECT_NE(hf_inner::hash_matrix(a, std::vector<std::int32_t>{0, 41}, weight, memory, one), expected);
-  EXPECT_NE(hf_inner::hash_matrix(a, ground, std::vector<double>{1.0, 2.5}, memory, one), expected);
+  EXPECT_NE(hf_inner::factor::hash_matrix(a, std::vector<std::int32_t>{0, 41}, weight, memory, one), expected);
+  EXPECT_NE(hf_inner::factor::hash_matrix(a, ground, std::vector<double>{1.0, 2.5}, memory, one), expected);
 }
 
 TEST_F(FactorBytes, foreign_matrices_sizes_versions_byte_orders_and_every_truncation_are_refused) {
@@ -131,10 +131,10 @@ TEST_F(FactorBytes, foreign_matrices_sizes_versions_byte_orders_and_every_trunca
   const std::vector<std::uint8_t> bytes = save(*make(a));
   EXPECT_EQ(code_of(bytes, 36), HF_OK);
   EXPECT_EQ(code_of(bytes, 37), HF_ERROR_INVALID_ARGUMENT);
-  hf_inner::LoadOptions other;
+  hf_inner::factor::LoadOptions other;
   other.unknowns = 36;
   other.matrix_hash = matrix_hash + 1;
-  EXPECT_THROW(hf_inner::load_factor(bytes, other, memory, one), hf_inner::Error);
+  EXPECT_THROW(hf_inner::factor::load_factor(bytes, other, memory, one), hf_inner::Error);
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     EXPECT_EQ(code_of({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}, 36),
               HF_ERROR_INVALID_ARGUMENT);
@@ -148,7 +148,7 @@ TEST_F(FactorBytes, foreign_matrices_sizes_versions_byte_orders_and_every_trunca
     EXPECT_EQ(code_of(future, 36), HF_ERROR_UNSUPPORTED);
   }
   std::vector<std::uint8_t> small(bytes.size() - 1);
-  EXPECT_THROW(hf_inner::save_factor(*make(a), matrix_hash, {small.data(), small.size()}, memory, one),
+  EXPECT_THROW(hf_inner::factor::save_factor(*make(a), matrix_hash, {small.data(), small.size()}, memory, one),
                hf_inner::Error);
 }
 
@@ -184,7 +184,8 @@ TEST_F(FactorBytes, numbers_that_are_not_finite_and_diagonals_that_are_not_posit
   const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 7, 5);
   const std::vector<std::uint8_t> bytes = save(*make(a));
   const auto factor = make(a);
-  const hf_inner::Symbolic& symbolic = static_cast<const hf_inner::SupernodalFactor&>(*factor).symbolic();
+  const hf_inner::factor::Symbolic& symbolic =
+      static_cast<const hf_inner::factor::SupernodalFactor&>(*factor).symbolic();
   const std::size_t numbers = static_cast<std::size_t>(symbolic.stored_entries);
   const std::size_t values = bytes.size() - (8 * (numbers + 64) + 63) / 64 * 64;
   const double bad[] = {std::nan(""), HUGE_VAL, -HUGE_VAL};
@@ -213,7 +214,8 @@ TEST_F(FactorBytes, row_lists_that_do_not_go_on_in_their_parent_are_refused) {
   const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 12, 9);
   const auto factor = make(a);
   const std::vector<std::uint8_t> bytes = save(*factor);
-  const hf_inner::Symbolic& symbolic = static_cast<const hf_inner::SupernodalFactor&>(*factor).symbolic();
+  const hf_inner::factor::Symbolic& symbolic =
+      static_cast<const hf_inner::factor::SupernodalFactor&>(*factor).symbolic();
   const std::size_t n = 108, supernodes = static_cast<std::size_t>(symbolic.supernodes);
   const auto padded = [](std::size_t size) { return (size + 63) / 64 * 64; };
   const std::size_t rows = header + padded(4 * n) + padded(4 * (supernodes + 1)) + padded(4 * supernodes);
@@ -278,7 +280,7 @@ TEST_F(FactorBytes, forged_bytes_with_right_checksums_never_crash) {
       const std::int32_t start[] = {0, 1, 2}, row[] = {5, 60};
       const double value[] = {1, 1};
       std::int32_t group[2], column[2];
-      hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>> groups(&memory);
+      hf_inner::Vector<std::shared_ptr<const hf_inner::factor::PathGroup>> groups(&memory);
       factor->solve_paths({{start, 3}, {row, 2}, {value, 2}}, memory, one, groups, {group, 2}, {column, 2});
     } catch (const hf_inner::Error&) {
       ++refused;
@@ -291,7 +293,7 @@ TEST_F(FactorBytes, forged_bytes_with_right_checksums_never_crash) {
 TEST_F(FactorBytes, the_single_precision_copy_sweeps_to_single_precision_and_the_same_bits_for_any_threads) {
   const hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(150, 90, 0.25));
   const auto factor = make(a);
-  const auto preview = hf_inner::PreviewFactor::make(*factor, memory, two);
+  const auto preview = hf_inner::factor::PreviewFactor::make(*factor, memory, two);
   EXPECT_LT(preview->bytes(), 0.55 * factor->statistics().bytes);
   for (const std::int32_t channels : {1, 2, 3, 8}) {
     std::vector<double> z(static_cast<std::size_t>(a.size() * channels));

@@ -22,14 +22,15 @@ struct Ratio {
 };
 Ratio ratio_to_minimum_degree(const PlainMesh& mesh) {
   // the graph of the mesh's own edges, which the limits are for; the intrinsic operator has others
-  hf_inner::CoreOptions options;
-  options.operator_kind = hf_inner::OperatorKind::cotangent;
+  hf_inner::surface::CoreOptions options;
+  options.operator_kind = hf_inner::mesh::OperatorKind::cotangent;
   const auto core = hf_test::make_core(mesh, 1, options);
-  const hf_inner::SymmetricMatrix a = hf_inner::grounded(*core);
+  const hf_inner::SymmetricMatrix a = hf_inner::surface::grounded(*core);
   hf_inner::Buffer<std::int32_t> order;
-  hf_inner::order_by_minimum_degree(a, *core->memory, order);
-  const hf_inner::FillEstimate degree = hf_inner::estimate_fill(a, {order.data(), order.size()}, *core->memory);
-  const hf_inner::FactorStatistics& own = core->factor->statistics();
+  hf_inner::factor::order_by_minimum_degree(a, *core->memory, order);
+  const hf_inner::factor::FillEstimate degree =
+      hf_inner::factor::estimate_fill(a, {order.data(), order.size()}, *core->memory);
+  const hf_inner::factor::FactorStatistics& own = core->factor->statistics();
   return {own.entries / degree.entries, own.flops / degree.flops};
 }
 
@@ -80,21 +81,21 @@ TEST(CorpusFill, is_bounded_by_minimum_degree_on_hard_surfaces) {
   // all points of a surface in one place (nothing is welded): zero area everywhere, no coordinate to go by
   PlainMesh point = hf_test::torus(70, 60);
   std::fill(point.positions.begin(), point.positions.end(), 2.5);
-  hf_inner::MeshInput input;
+  hf_inner::mesh::MeshInput input;
   input.vertex_count = point.vertex_count();
   input.triangle_count = point.triangle_count();
   input.positions = hf_inner::ConstRows(point.positions.data(), 3 * sizeof(double));
   input.triangles = hf_inner::IndexRows(point.triangles.data(), 3);
-  input.weld = hf_inner::Weld::none;
+  input.weld = hf_inner::mesh::Weld::none;
   const auto memory = std::make_shared<hf_inner::Memory>();
-  hf_inner::CoreOptions options;
-  options.operator_kind = hf_inner::OperatorKind::uniform;
-  const auto core = hf_inner::Core::make(input, options, memory, std::make_shared<hf_inner::JobRunner>(1));
-  const hf_inner::SymmetricMatrix a = hf_inner::grounded(*core);
+  hf_inner::surface::CoreOptions options;
+  options.operator_kind = hf_inner::mesh::OperatorKind::uniform;
+  const auto core = hf_inner::surface::Core::make(input, options, memory, std::make_shared<hf_inner::JobRunner>(1));
+  const hf_inner::SymmetricMatrix a = hf_inner::surface::grounded(*core);
   hf_inner::Buffer<std::int32_t> order;
-  hf_inner::order_by_minimum_degree(a, *memory, order);
+  hf_inner::factor::order_by_minimum_degree(a, *memory, order);
   EXPECT_LE(core->factor->statistics().entries,
-            1.15 * hf_inner::estimate_fill(a, {order.data(), order.size()}, *memory).entries);
+            1.15 * hf_inner::factor::estimate_fill(a, {order.data(), order.size()}, *memory).entries);
   // many handles, needles, dirt
   expect_bounded(hf_test::slab_with_holes(40, 4), "genus_40");
   PlainMesh needles = hf_test::torus(300, 40);

@@ -14,8 +14,8 @@ namespace {
 
 using hf_inner::at;
 using hf_inner::Index;
-using hf_inner::MatrixChange;
-using hf_inner::PathGroup;
+using hf_inner::factor::MatrixChange;
+using hf_inner::factor::PathGroup;
 
 class EditedFactorTest : public testing::Test {
  protected:
@@ -25,7 +25,8 @@ class EditedFactorTest : public testing::Test {
     const Index nx = 23, ny = 17;
     const hf_inner::SymmetricMatrix matrix = hf_test::grid_laplacian(memory, nx, ny);
     const std::vector<float> points = hf_test::grid_points(nx, ny);
-    base = hf_inner::Factor::make(matrix, hf_inner::Span<const float>(points.data(), points.size()), {}, memory, two);
+    base = hf_inner::factor::Factor::make(matrix, hf_inner::Span<const float>(points.data(), points.size()), {}, memory,
+                                          two);
     n = matrix.size();
     exact = Eigen::MatrixXd::Zero(n, n);
     for (Index j = 0; j < n; ++j) {
@@ -82,7 +83,7 @@ class EditedFactorTest : public testing::Test {
 
   hf_inner::Memory memory;
   hf_inner::JobRunner two{2};
-  std::shared_ptr<const hf_inner::Factor> base;
+  std::shared_ptr<const hf_inner::factor::Factor> base;
   MatrixChange change{memory};
   Eigen::MatrixXd exact;
   Index n = 0;
@@ -94,7 +95,7 @@ TEST_F(EditedFactorTest, SweepsSolveTheEditedMatrix) {
                              {1e4, 0},  {1e4, 1e-4}, {1e-4, 1e4}};  // the last beside each other
   for (const auto& one : cases) {
     make(one[0], 2.5, one[0] != 5.0, one[1]);
-    const auto factor = hf_inner::edit_factor(base, change, memory, two);
+    const auto factor = hf_inner::factor::edit_factor(base, change, memory, two);
     const hf_test::DenseSolver dense(exact);
     for (const Index m : {1, 3, 8}) {
       // the error of the reference is removed by steps with residuals in long double
@@ -118,7 +119,7 @@ TEST_F(EditedFactorTest, SweepsSolveTheEditedMatrix) {
 TEST_F(EditedFactorTest, PathsAreThoseOfTheEditedMatrix) {
   make(40, 3);
   ASSERT_GT(change.inside.size(), 40u);
-  const auto factor = hf_inner::edit_factor(base, change, memory, two);
+  const auto factor = hf_inner::factor::edit_factor(base, change, memory, two);
   const Eigen::MatrixXd inverse = hf_test::DenseSolver(exact).solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)));
   const Index k = 70;  // more than two groups
   std::vector<Index> start(1, 0), row;
@@ -179,7 +180,7 @@ TEST_F(EditedFactorTest, RowsOfTheFactorAreSweepsOfColumns) {
   make(1, 0);
   std::vector<Index> all(at(n));
   for (Index v = 0; v < n; ++v) all[at(v)] = v;
-  hf_inner::SparseVectors rows(memory);
+  hf_inner::factor::SparseVectors rows(memory);
   ASSERT_TRUE(base->rows_of({all.data(), all.size()}, rows));
   ASSERT_EQ(rows.start.size(), at(n) + 1);
   for (Index v = 0; v < n; ++v) {
@@ -200,7 +201,7 @@ TEST_F(EditedFactorTest, AMatrixThatIsNotPositiveDefiniteIsRefused) {
   change.entries = hf_inner::Vector<MatrixChange::Entry>(
       {{0, 0, -weight}, {1, 1, -weight}, {0, 1, weight}, {1, 0, weight}}, &memory);
   try {
-    hf_inner::edit_factor(base, change, memory, two);
+    hf_inner::factor::edit_factor(base, change, memory, two);
     FAIL() << "made";
   } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_NOT_POSITIVE_DEFINITE);

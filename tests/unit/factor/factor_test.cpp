@@ -35,15 +35,17 @@ std::vector<double> random_vector(std::size_t size, std::uint32_t seed) {
 
 class Fixture : public testing::Test {
  protected:
-  std::shared_ptr<const hf_inner::Factor> make(const hf_inner::SymmetricMatrix& a,
-                                               hf_inner::Ordering ordering = hf_inner::Ordering::minimum_degree,
-                                               const std::vector<float>& points = {}) {
-    hf_inner::FactorOptions options;
+  std::shared_ptr<const hf_inner::factor::Factor> make(
+      const hf_inner::SymmetricMatrix& a,
+      hf_inner::factor::Ordering ordering = hf_inner::factor::Ordering::minimum_degree,
+      const std::vector<float>& points = {}) {
+    hf_inner::factor::FactorOptions options;
     options.ordering = ordering;
-    return hf_inner::Factor::make(a, hf_inner::Span<const float>(points.data(), points.size()), options, memory, one);
+    return hf_inner::factor::Factor::make(a, hf_inner::Span<const float>(points.data(), points.size()), options, memory,
+                                          one);
   }
-  std::vector<double> solve(const hf_inner::Factor& factor, const std::vector<double>& b, std::int32_t channels = 1,
-                            hf_inner::JobRunner* jobs = nullptr) {
+  std::vector<double> solve(const hf_inner::factor::Factor& factor, const std::vector<double>& b,
+                            std::int32_t channels = 1, hf_inner::JobRunner* jobs = nullptr) {
     std::vector<double> z(b.size()), x(b.size());
     for (std::int32_t k = 0; k < factor.size(); ++k) {
       for (std::int32_t c = 0; c < channels; ++c) z[k * channels + c] = b[factor.order()[k] * channels + c];
@@ -56,7 +58,7 @@ class Fixture : public testing::Test {
     return x;
   }
   // sweeps and P against the dense factor: G^-1 and G^-T column by column
-  void expect_factor_of(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering ordering) {
+  void expect_factor_of(const hf_inner::SymmetricMatrix& a, hf_inner::factor::Ordering ordering) {
     const auto factor = make(a, ordering);
     const std::int32_t n = a.size();
     ASSERT_EQ(factor->size(), n);
@@ -95,7 +97,7 @@ class Fixture : public testing::Test {
       }
     }
   }
-  void expect_residual(const hf_inner::SymmetricMatrix& a, const hf_inner::Factor& factor, double bound) {
+  void expect_residual(const hf_inner::SymmetricMatrix& a, const hf_inner::factor::Factor& factor, double bound) {
     const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()), 5);
     const std::vector<double> x = solve(factor, b);
     const std::vector<double> ax = hf_test::multiply(a, x);
@@ -121,8 +123,8 @@ using FactorTest = Fixture;
 TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_random_patterns) {
   for (std::int32_t n = 1; n <= 60; n += (n < 20 ? 1 : 7)) {
     for (const double density : {0.0, 0.05, 0.2, 0.6, 1.0}) {
-      for (const auto ordering :
-           {hf_inner::Ordering::minimum_degree, hf_inner::Ordering::natural, hf_inner::Ordering::nested_dissection}) {
+      for (const auto ordering : {hf_inner::factor::Ordering::minimum_degree, hf_inner::factor::Ordering::natural,
+                                  hf_inner::factor::Ordering::nested_dissection}) {
         expect_factor_of(hf_test::random_matrix(memory, n, density, static_cast<std::uint32_t>(n)), ordering);
         if (HasFatalFailure()) return;
       }
@@ -131,16 +133,16 @@ TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_random_patterns) {
 }
 
 TEST_F(FactorTest, sweeps_equal_dense_cholesky_on_grids_arrows_and_dense_blocks) {
-  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf_inner::Ordering::minimum_degree);
-  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf_inner::Ordering::natural);
-  expect_factor_of(hf_test::grid_laplacian(memory, 300, 1), hf_inner::Ordering::nested_dissection);
-  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf_inner::Ordering::natural);
-  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf_inner::Ordering::minimum_degree);
+  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf_inner::factor::Ordering::minimum_degree);
+  expect_factor_of(hf_test::grid_laplacian(memory, 20, 17), hf_inner::factor::Ordering::natural);
+  expect_factor_of(hf_test::grid_laplacian(memory, 300, 1), hf_inner::factor::Ordering::nested_dissection);
+  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf_inner::factor::Ordering::natural);
+  expect_factor_of(hf_test::arrow_matrix(memory, 100), hf_inner::factor::Ordering::minimum_degree);
   expect_factor_of(hf_test::random_matrix(memory, 300, 1.0, 1),
-                   hf_inner::Ordering::natural);  // one supernode wider than a chunk
-  expect_factor_of(hf_test::random_matrix(memory, 600, 0.5, 2), hf_inner::Ordering::minimum_degree);
+                   hf_inner::factor::Ordering::natural);  // one supernode wider than a chunk
+  expect_factor_of(hf_test::random_matrix(memory, 600, 0.5, 2), hf_inner::factor::Ordering::minimum_degree);
   expect_factor_of(hf_test::squared(memory, hf_test::grid_laplacian(memory, 16, 16), 1.0),
-                   hf_inner::Ordering::minimum_degree);
+                   hf_inner::factor::Ordering::minimum_degree);
 }
 
 TEST_F(FactorTest, several_components_and_single_unknowns_are_solved) {
@@ -150,10 +152,10 @@ TEST_F(FactorTest, several_components_and_single_unknowns_are_solved) {
     a.add(c * 5, c * 5, 1.0);
   }
   for (std::int32_t k = 50; k < 70; ++k) a.add(k, k, k);
-  expect_factor_of(a.build(memory), hf_inner::Ordering::minimum_degree);
+  expect_factor_of(a.build(memory), hf_inner::factor::Ordering::minimum_degree);
   Assembly b(70);
   for (std::int32_t k = 0; k < 70; ++k) b.add(k, k, 1.0 + k);
-  expect_factor_of(b.build(memory), hf_inner::Ordering::nested_dissection);
+  expect_factor_of(b.build(memory), hf_inner::factor::Ordering::nested_dissection);
 }
 
 TEST_F(FactorTest, commute_time_is_the_sum_of_the_diagonal_over_the_last_pivot) {
@@ -164,7 +166,7 @@ TEST_F(FactorTest, commute_time_is_the_sum_of_the_diagonal_over_the_last_pivot) 
     }
     const double ground = 0.5, mean = 2.5;
     a.add(0, 0, ground);
-    const auto factor = make(a.build(memory), hf_inner::Ordering::natural);
+    const auto factor = make(a.build(memory), hf_inner::factor::Ordering::natural);
     const double last = factor->order()[n - 1] == 0 ? ground : 1 / (2.0 / n + 1 / ground);  // conductance to the ground
     const std::vector<std::int32_t> component(static_cast<std::size_t>(n), 0);
     EXPECT_NEAR(factor->commute_time(component, {&mean, 1}) * last / (n * mean), 1, 1e-12) << n;
@@ -202,7 +204,8 @@ TEST_F(FactorTest, empty_matrix_is_a_factor_of_size_zero) {
 
 TEST_F(FactorTest, residual_of_a_large_grid_and_torus_is_rounding) {
   const hf_inner::SymmetricMatrix grid = hf_test::grid_laplacian(memory, 200, 150);
-  for (const auto ordering : {hf_inner::Ordering::minimum_degree, hf_inner::Ordering::nested_dissection}) {
+  for (const auto ordering :
+       {hf_inner::factor::Ordering::minimum_degree, hf_inner::factor::Ordering::nested_dissection}) {
     expect_residual(grid, *make(grid, ordering, hf_test::grid_points(200, 150)), 1e-14);
   }
   const hf_inner::SymmetricMatrix ring = hf_test::cotangent_matrix(memory, hf_test::torus(120, 60, 0.25));
@@ -212,15 +215,16 @@ TEST_F(FactorTest, residual_of_a_large_grid_and_torus_is_rounding) {
 
 TEST_F(FactorTest, factor_and_sweeps_are_the_same_bits_for_any_number_of_threads) {
   const hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(200, 100, 0.25));
-  for (const auto ordering : {hf_inner::Ordering::minimum_degree, hf_inner::Ordering::nested_dissection}) {
-    hf_inner::FactorOptions options;
+  for (const auto ordering :
+       {hf_inner::factor::Ordering::minimum_degree, hf_inner::factor::Ordering::nested_dissection}) {
+    hf_inner::factor::FactorOptions options;
     options.ordering = ordering;
     hf_inner::JobRunner five(5);
-    const auto f1 = hf_inner::Factor::make(a, {}, options, memory, one);
+    const auto f1 = hf_inner::factor::Factor::make(a, {}, options, memory, one);
     for (hf_inner::JobRunner* jobs : {&two, &five}) {
-      const auto f2 = hf_inner::Factor::make(a, {}, options, memory, *jobs);
-      const auto& v1 = static_cast<const hf_inner::SupernodalFactor&>(*f1).values();
-      const auto& v2 = static_cast<const hf_inner::SupernodalFactor&>(*f2).values();
+      const auto f2 = hf_inner::factor::Factor::make(a, {}, options, memory, *jobs);
+      const auto& v1 = static_cast<const hf_inner::factor::SupernodalFactor&>(*f1).values();
+      const auto& v2 = static_cast<const hf_inner::factor::SupernodalFactor&>(*f2).values();
       ASSERT_EQ(v1.size(), v2.size());
       EXPECT_EQ(std::memcmp(v1.data(), v2.data(), v1.size() * sizeof(double)), 0);
       for (const std::int32_t channels : {1, 3, 8}) {
@@ -244,13 +248,13 @@ TEST_F(FactorTest, a_host_that_runs_jobs_serially_and_backwards_gets_the_same_bi
   int batches = 0;
   hf_job_runner host{run_backwards, &batches};
   hf_inner::JobRunner jobs(4, host);
-  hf_inner::FactorOptions options;
+  hf_inner::factor::FactorOptions options;
   const hf_inner::Span<const float> coordinates(points.data(), points.size());
-  const auto f = hf_inner::Factor::make(a, coordinates, options, memory, one),
-             g = hf_inner::Factor::make(a, coordinates, options, memory, jobs);
+  const auto f = hf_inner::factor::Factor::make(a, coordinates, options, memory, one),
+             g = hf_inner::factor::Factor::make(a, coordinates, options, memory, jobs);
   EXPECT_GT(batches, 3);
-  const auto& v = static_cast<const hf_inner::SupernodalFactor&>(*f).values();
-  const auto& w = static_cast<const hf_inner::SupernodalFactor&>(*g).values();
+  const auto& v = static_cast<const hf_inner::factor::SupernodalFactor&>(*f).values();
+  const auto& w = static_cast<const hf_inner::factor::SupernodalFactor&>(*g).values();
   ASSERT_EQ(v.size(), w.size());
   EXPECT_EQ(std::memcmp(v.data(), w.data(), v.size() * sizeof(double)), 0);
   const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()) * 3, 9);
@@ -279,10 +283,10 @@ TEST_F(FactorTest, a_cancelled_factorisation_unwinds_and_frees_everything) {
   const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 60, 60);
   hf_inner::Progress progress;
   progress.cancel();
-  hf_inner::FactorOptions options;
+  hf_inner::factor::FactorOptions options;
   const hf_inner::CallProgress call(&progress);
   try {
-    hf_inner::Factor::make(a, {}, options, counted, two);
+    hf_inner::factor::Factor::make(a, {}, options, counted, two);
     FAIL() << "went on";
   } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_CANCELLED);
@@ -291,21 +295,21 @@ TEST_F(FactorTest, a_cancelled_factorisation_unwinds_and_frees_everything) {
 }
 
 TEST_F(FactorTest, avx2_and_avx512_give_the_same_bits) {
-  const hf_inner::Kernels* narrow = hf_inner::avx2_kernels();
-  const hf_inner::Kernels* wide = hf_inner::avx512_kernels();
+  const hf_inner::factor::Kernels* narrow = hf_inner::factor::avx2_kernels();
+  const hf_inner::factor::Kernels* wide = hf_inner::factor::avx512_kernels();
   if (!narrow || !wide) GTEST_SKIP() << "this processor has not both AVX2 and AVX-512";
   for (const bool bend : {false, true}) {
     hf_inner::SymmetricMatrix a = hf_test::cotangent_matrix(memory, hf_test::torus(100, 60, 0.25));
     if (bend) a = hf_test::squared(memory, a, 1.0);
     const auto made = make(a);
-    const auto analysis = static_cast<const hf_inner::SupernodalFactor&>(*made).analysis();
-    hf_inner::SupernodalFactor f(analysis, memory), g(analysis, memory), h(analysis, memory);
+    const auto analysis = static_cast<const hf_inner::factor::SupernodalFactor&>(*made).analysis();
+    hf_inner::factor::SupernodalFactor f(analysis, memory), g(analysis, memory), h(analysis, memory);
     f.use_kernels(*narrow);
     g.use_kernels(*wide);
-    h.use_kernels(*hf_inner::plain_kernels());
-    f.compute(a, {}, hf_inner::default_lost_share, one);
-    g.compute(a, {}, hf_inner::default_lost_share, one);
-    h.compute(a, {}, hf_inner::default_lost_share, one);
+    h.use_kernels(*hf_inner::factor::plain_kernels());
+    f.compute(a, {}, hf_inner::factor::default_lost_share, one);
+    g.compute(a, {}, hf_inner::factor::default_lost_share, one);
+    h.compute(a, {}, hf_inner::factor::default_lost_share, one);
     ASSERT_EQ(std::memcmp(f.values().data(), g.values().data(), f.values().size() * sizeof(double)), 0);
     for (const std::int32_t channels : {1, 2, 3, 4, 8, 9}) {
       const std::vector<double> b = random_vector(static_cast<std::size_t>(a.size()) * channels, 9);
@@ -328,9 +332,9 @@ TEST_F(FactorTest, a_lost_pivot_names_the_callers_column) {
   }
   for (hf_inner::JobRunner* jobs : {&one, &two}) {
     try {
-      hf_inner::FactorOptions options;
-      options.ordering = hf_inner::Ordering::minimum_degree;
-      hf_inner::Factor::make(a, {}, options, memory, *jobs);
+      hf_inner::factor::FactorOptions options;
+      options.ordering = hf_inner::factor::Ordering::minimum_degree;
+      hf_inner::factor::Factor::make(a, {}, options, memory, *jobs);
       FAIL() << "accepted an indefinite matrix";
     } catch (const hf_inner::Error& error) {
       EXPECT_EQ(error.code(), HF_ERROR_NOT_POSITIVE_DEFINITE);
@@ -420,7 +424,7 @@ struct Batch {
     }
     start.push_back(static_cast<std::int32_t>(row.size()));
   }
-  hf_inner::SparseColumns view() const {
+  hf_inner::factor::SparseColumns view() const {
     return {{start.data(), start.size()}, {row.data(), row.size()}, {value.data(), value.size()}};
   }
 };
@@ -428,7 +432,7 @@ struct Batch {
 TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
   const hf_inner::SymmetricMatrix a = hf_test::grid_laplacian(memory, 40, 35);
   const std::int32_t n = a.size();
-  for (const auto ordering : {hf_inner::Ordering::minimum_degree, hf_inner::Ordering::natural}) {
+  for (const auto ordering : {hf_inner::factor::Ordering::minimum_degree, hf_inner::factor::Ordering::natural}) {
     const auto factor = make(a, ordering);
     for (const std::int32_t k : {1, 2, 3, 7, 8, 9, 33, 70, 150}) {
       Batch batch;
@@ -450,14 +454,14 @@ TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
         factor->forward(z.data(), 1, one);
         for (std::int32_t r = 0; r < n; ++r) y(r, i) = z[static_cast<std::size_t>(r)];
       }
-      hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>> groups(&memory);
+      hf_inner::Vector<std::shared_ptr<const hf_inner::factor::PathGroup>> groups(&memory);
       std::vector<std::int32_t> group(static_cast<std::size_t>(k)), column(static_cast<std::size_t>(k));
       factor->solve_paths(batch.view(), memory, two, groups, {group.data(), group.size()},
                           {column.data(), column.size()});
       std::int32_t total = 0;
       for (const auto& g : groups) {
         total += g->count();
-        ASSERT_LE(g->count(), hf_inner::PathGroup::capacity);
+        ASSERT_LE(g->count(), hf_inner::factor::PathGroup::capacity);
       }
       ASSERT_EQ(total, k);
       const double scale = 1e-13 * (1 + y.cwiseAbs().maxCoeff());
@@ -510,7 +514,7 @@ TEST_F(FactorTest, paths_gram_combine_project_and_clear_equal_the_dense_forms) {
 
 TEST_F(FactorTest, a_site_outside_the_matrix_is_refused) {
   const auto factor = make(hf_test::grid_laplacian(memory, 5, 5));
-  hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>> groups(&memory);
+  hf_inner::Vector<std::shared_ptr<const hf_inner::factor::PathGroup>> groups(&memory);
   std::int32_t group = 0, column = 0;
   for (const std::int32_t row : {-1, 25, INT32_MAX}) {
     Batch batch;
@@ -524,8 +528,8 @@ TEST_F(FactorTest, memory_that_runs_out_anywhere_is_reported_and_nothing_leaks) 
   std::uint64_t needed = 0;
   {
     hf_inner::Memory counted;
-    hf_inner::FactorOptions options;
-    hf_inner::Factor::make(a, {}, options, counted, two);
+    hf_inner::factor::FactorOptions options;
+    hf_inner::factor::Factor::make(a, {}, options, counted, two);
     needed = counted.peak_bytes();
     EXPECT_EQ(counted.live_bytes(), 0u);
   }
@@ -533,8 +537,8 @@ TEST_F(FactorTest, memory_that_runs_out_anywhere_is_reported_and_nothing_leaks) 
   for (std::uint64_t limit = 1000; limit < needed; limit += needed / 40) {
     hf_inner::Memory tight({}, limit);
     try {
-      hf_inner::FactorOptions options;
-      hf_inner::Factor::make(a, {}, options, tight, two);
+      hf_inner::factor::FactorOptions options;
+      hf_inner::factor::Factor::make(a, {}, options, tight, two);
     } catch (const std::bad_alloc&) {
       ++refused;
     } catch (const hf_inner::Error& error) {  // known before the factor is allocated

@@ -23,10 +23,10 @@ using hf_test::Assembly;
 
 class OrderingTest : public testing::Test {
  protected:
-  hf_inner::Buffer<std::int32_t> order(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering kind,
+  hf_inner::Buffer<std::int32_t> order(const hf_inner::SymmetricMatrix& a, hf_inner::factor::Ordering kind,
                                        const std::vector<float>& points = {}, hf_inner::JobRunner* jobs = nullptr) {
     hf_inner::Buffer<std::int32_t> result;
-    hf_inner::make_order(a, {points.data(), points.size()}, kind, memory, jobs ? *jobs : one, result);
+    hf_inner::factor::make_order(a, {points.data(), points.size()}, kind, memory, jobs ? *jobs : one, result);
     std::vector<char> seen(static_cast<std::size_t>(a.size()), 0);
     EXPECT_EQ(result.size(), seen.size());
     for (const std::int32_t v : result) {
@@ -35,23 +35,23 @@ class OrderingTest : public testing::Test {
     }
     return result;
   }
-  hf_inner::FillEstimate fill(const hf_inner::SymmetricMatrix& a, hf_inner::Ordering kind,
-                              const std::vector<float>& points = {}) {
+  hf_inner::factor::FillEstimate fill(const hf_inner::SymmetricMatrix& a, hf_inner::factor::Ordering kind,
+                                      const std::vector<float>& points = {}) {
     const hf_inner::Buffer<std::int32_t> result = order(a, kind, points);
-    return hf_inner::estimate_fill(a, {result.data(), result.size()}, memory);
+    return hf_inner::factor::estimate_fill(a, {result.data(), result.size()}, memory);
   }
   // dissection is a permutation, the same for 1, 2 and 5 threads, and its fill is at most `factor` times minimum
   // degree's
   void expect_sound(const hf_inner::SymmetricMatrix& a, const std::vector<float>& points, double factor,
                     const char* what) {
     hf_inner::JobRunner two(2), five(5);
-    const auto x = order(a, hf_inner::Ordering::nested_dissection, points),
-               y = order(a, hf_inner::Ordering::nested_dissection, points, &two),
-               z = order(a, hf_inner::Ordering::nested_dissection, points, &five);
+    const auto x = order(a, hf_inner::factor::Ordering::nested_dissection, points),
+               y = order(a, hf_inner::factor::Ordering::nested_dissection, points, &two),
+               z = order(a, hf_inner::factor::Ordering::nested_dissection, points, &five);
     EXPECT_TRUE(std::equal(x.begin(), x.end(), y.begin())) << what;
     EXPECT_TRUE(std::equal(x.begin(), x.end(), z.begin())) << what;
-    const double own = hf_inner::estimate_fill(a, {x.data(), x.size()}, memory).entries,
-                 degree = fill(a, hf_inner::Ordering::minimum_degree).entries;
+    const double own = hf_inner::factor::estimate_fill(a, {x.data(), x.size()}, memory).entries,
+                 degree = fill(a, hf_inner::factor::Ordering::minimum_degree).entries;
     EXPECT_LE(own, factor * degree) << what << ": " << own << " against " << degree;
   }
   hf_inner::Memory memory;
@@ -63,7 +63,7 @@ std::vector<float> floats(const std::vector<double>& x) { return {x.begin(), x.e
 TEST_F(OrderingTest, fill_estimate_counts_the_entries_of_dense_elimination) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     const hf_inner::SymmetricMatrix a = hf_test::random_matrix(memory, 40, 0.1, seed);
-    const auto p = order(a, hf_inner::Ordering::nested_dissection);
+    const auto p = order(a, hf_inner::factor::Ordering::nested_dissection);
     std::vector<std::set<std::int32_t>> graph(40);
     for (std::int32_t j = 0; j < 40; ++j) {
       for (std::int32_t e = a.column_start[j]; e < a.column_start[j + 1]; ++e) {
@@ -83,7 +83,7 @@ TEST_F(OrderingTest, fill_estimate_counts_the_entries_of_dense_elimination) {
         graph[static_cast<std::size_t>(u)].erase(v);
       }
     }
-    const hf_inner::FillEstimate estimate = hf_inner::estimate_fill(a, {p.data(), p.size()}, memory);
+    const hf_inner::factor::FillEstimate estimate = hf_inner::factor::estimate_fill(a, {p.data(), p.size()}, memory);
     EXPECT_EQ(estimate.entries, entries);
     EXPECT_EQ(estimate.flops, flops);
   }
@@ -122,30 +122,32 @@ TEST_F(OrderingTest, minimum_degree_fills_about_as_much_as_with_exact_degrees) {
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
     const std::int32_t size = 20 + static_cast<std::int32_t>(seed) * 4;
     const hf_inner::SymmetricMatrix a = hf_test::random_matrix(memory, size, 4.0 / size, seed);
-    own += fill(a, hf_inner::Ordering::minimum_degree).entries;
+    own += fill(a, hf_inner::factor::Ordering::minimum_degree).entries;
     exact += exact_minimum_degree_entries(a);
   }
   EXPECT_LE(own, 1.03 * exact);
   const hf_inner::SymmetricMatrix grid = hf_test::grid_laplacian(memory, 24, 22);
-  EXPECT_LE(fill(grid, hf_inner::Ordering::minimum_degree).entries, 1.1 * exact_minimum_degree_entries(grid));
+  EXPECT_LE(fill(grid, hf_inner::factor::Ordering::minimum_degree).entries, 1.1 * exact_minimum_degree_entries(grid));
 }
 
 TEST_F(OrderingTest, minimum_degree_takes_graphs_of_every_shape) {
   // without fill: a path, a star (its centre is dense and comes last), islands, nothing at all
-  EXPECT_EQ(fill(hf_test::grid_laplacian(memory, 5000, 1), hf_inner::Ordering::minimum_degree).entries, 2 * 5000 - 1);
+  EXPECT_EQ(fill(hf_test::grid_laplacian(memory, 5000, 1), hf_inner::factor::Ordering::minimum_degree).entries,
+            2 * 5000 - 1);
   Assembly star(200000);
   for (std::int32_t k = 1; k < 200000; ++k) star.add_edge(0, k, 1.0);
-  EXPECT_EQ(fill(star.build(memory), hf_inner::Ordering::minimum_degree).entries, 2 * 200000 - 1);
-  EXPECT_EQ(fill(Assembly(300).build(memory), hf_inner::Ordering::minimum_degree).entries, 300);
-  EXPECT_EQ(fill(Assembly(0).build(memory), hf_inner::Ordering::minimum_degree).entries, 0);
-  EXPECT_EQ(fill(hf_test::random_matrix(memory, 60, 1.0, 1), hf_inner::Ordering::minimum_degree).entries, 60 * 61 / 2);
+  EXPECT_EQ(fill(star.build(memory), hf_inner::factor::Ordering::minimum_degree).entries, 2 * 200000 - 1);
+  EXPECT_EQ(fill(Assembly(300).build(memory), hf_inner::factor::Ordering::minimum_degree).entries, 300);
+  EXPECT_EQ(fill(Assembly(0).build(memory), hf_inner::factor::Ordering::minimum_degree).entries, 0);
+  EXPECT_EQ(fill(hf_test::random_matrix(memory, 60, 1.0, 1), hf_inner::factor::Ordering::minimum_degree).entries,
+            60 * 61 / 2);
   // hubs next to a tenth of all others
   Assembly hubs(20000);
   std::mt19937 random(3);
   const auto any = [&] { return static_cast<std::int32_t>(random() % 20000); };
   for (std::int32_t v = 0; v + 1 < 20000; ++v) hubs.add_edge(v, v + 1, 1.0);
   for (std::int32_t k = 0; k < 40000; ++k) hubs.add_edge(k % 20, 20 + any() % 19980, 1.0);
-  order(hubs.build(memory), hf_inner::Ordering::minimum_degree);
+  order(hubs.build(memory), hf_inner::factor::Ordering::minimum_degree);
 }
 
 #if defined(HF_WITH_GPL)
@@ -157,8 +159,8 @@ TEST_F(OrderingTest, minimum_degree_fills_as_much_as_amd) {
     std::vector<std::int32_t> amd(static_cast<std::size_t>(matrix->size()));
     ASSERT_GE(amd_order(matrix->size(), matrix->column_start.data(), matrix->row.data(), amd.data(), nullptr, nullptr),
               0);
-    const double theirs = hf_inner::estimate_fill(*matrix, {amd.data(), amd.size()}, memory).entries;
-    EXPECT_LE(fill(*matrix, hf_inner::Ordering::minimum_degree).entries, 1.02 * theirs) << matrix->size();
+    const double theirs = hf_inner::factor::estimate_fill(*matrix, {amd.data(), amd.size()}, memory).entries;
+    EXPECT_LE(fill(*matrix, hf_inner::factor::Ordering::minimum_degree).entries, 1.02 * theirs) << matrix->size();
   }
 }
 #endif
@@ -170,8 +172,9 @@ TEST_F(OrderingTest, surfaces_fill_less_than_minimum_degree_and_about_as_much_as
   const hf_inner::SymmetricMatrix k = hf_test::squared(memory, a, 1.0);
   expect_sound(k, floats(mesh.points), 1.0, "torus, two rings");
 #if defined(HF_WITH_GPL)
-  const hf_inner::FillEstimate own = fill(a, hf_inner::Ordering::nested_dissection, floats(mesh.points)),
-                               metis = fill(a, hf_inner::Ordering::metis);
+  const hf_inner::factor::FillEstimate own =
+                                           fill(a, hf_inner::factor::Ordering::nested_dissection, floats(mesh.points)),
+                                       metis = fill(a, hf_inner::factor::Ordering::metis);
   EXPECT_LE(own.entries, 1.12 * metis.entries);
   EXPECT_LE(own.flops, 1.25 * metis.flops);
 #endif
@@ -230,9 +233,9 @@ TEST_F(OrderingTest, a_graph_that_separates_badly_falls_back_on_minimum_degree) 
   std::vector<float> points(mesh.points.size());
   std::mt19937 random(1);
   for (float& x : points) x = static_cast<float>(random());
-  hf_inner::FactorOptions options;
-  const auto guarded = hf_inner::Factor::make(a, {points.data(), points.size()}, options, memory, one);
-  EXPECT_LE(guarded->statistics().entries, 1.5 * fill(a, hf_inner::Ordering::minimum_degree).entries);
+  hf_inner::factor::FactorOptions options;
+  const auto guarded = hf_inner::factor::Factor::make(a, {points.data(), points.size()}, options, memory, one);
+  EXPECT_LE(guarded->statistics().entries, 1.5 * fill(a, hf_inner::factor::Ordering::minimum_degree).entries);
 }
 
 #if defined(HF_WITH_GPL)
@@ -244,7 +247,7 @@ TEST_F(OrderingTest, metis_leaves_the_hosts_random_numbers_alone) {
   std::srand(42);
   for (int k = 0; k < 20; ++k) {
     EXPECT_EQ(std::rand(), expected[static_cast<std::size_t>(k)]);
-    if (k % 5 == 2) order(a, hf_inner::Ordering::metis);
+    if (k % 5 == 2) order(a, hf_inner::factor::Ordering::metis);
   }
 }
 #endif
@@ -252,7 +255,7 @@ TEST_F(OrderingTest, metis_leaves_the_hosts_random_numbers_alone) {
 TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
   // random small graphs: left and right ends fixed, the separator compared with exhaustive search
   std::mt19937 random(5);
-  hf_inner::SeparatorSearch search(memory);
+  hf_inner::factor::SeparatorSearch search(memory);
   for (int round = 0; round < 300; ++round) {
     const std::int32_t n = 6 + static_cast<std::int32_t>(random() % 9);
     std::vector<std::vector<std::int32_t>> ring(static_cast<std::size_t>(n));
@@ -270,10 +273,10 @@ TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
       neighbour.insert(neighbour.end(), r.begin(), r.end());
       start.push_back(static_cast<std::int32_t>(neighbour.size()));
     }
-    std::vector<std::uint8_t> side(static_cast<std::size_t>(n), hf_inner::side_between);
-    side.front() = hf_inner::side_left;
-    side.back() = hf_inner::side_right;
-    const hf_inner::Cut cut = search.refine({n, start.data(), neighbour.data(), nullptr, nullptr}, side.data());
+    std::vector<std::uint8_t> side(static_cast<std::size_t>(n), hf_inner::factor::side_between);
+    side.front() = hf_inner::factor::side_left;
+    side.back() = hf_inner::factor::side_right;
+    const hf_inner::factor::Cut cut = search.refine({n, start.data(), neighbour.data(), nullptr, nullptr}, side.data());
     std::int32_t best = n;
     for (std::uint32_t set = 0; set < 1u << (n - 2); ++set) {
       if (__builtin_popcount(set) >= best) continue;
@@ -294,10 +297,10 @@ TEST_F(OrderingTest, the_minimum_separator_is_minimum) {
     ASSERT_EQ(cut.separator, best) << "round " << round;
     std::int32_t between = 0;
     for (std::int32_t v = 0; v < n; ++v) {
-      between += side[static_cast<std::size_t>(v)] == hf_inner::side_between;
+      between += side[static_cast<std::size_t>(v)] == hf_inner::factor::side_between;
       for (const std::int32_t u : ring[static_cast<std::size_t>(v)]) {
-        ASSERT_FALSE(side[static_cast<std::size_t>(v)] == hf_inner::side_left &&
-                     side[static_cast<std::size_t>(u)] == hf_inner::side_right)
+        ASSERT_FALSE(side[static_cast<std::size_t>(v)] == hf_inner::factor::side_left &&
+                     side[static_cast<std::size_t>(u)] == hf_inner::factor::side_right)
             << "round " << round;
       }
     }
@@ -321,7 +324,7 @@ TEST_F(OrderingTest, graphs_are_bisected_wherever_their_places_lie) {
   const std::array<float, 3> scales[] = {{1, 1, 0},      {1, 0, 0},         {0, 0, 0},         {1e-30f, 1e-30f, 0},
                                          {1e-45f, 0, 0}, {1e36f, 1e36f, 0}, {1e36f, 1e-6f, 0}, {nan, nan, nan},
                                          {1, nan, 0},    {infinity, 1, 0}};
-  hf_inner::SeparatorSearch search(memory);
+  hf_inner::factor::SeparatorSearch search(memory);
   for (const auto& scale : scales) {
     for (const bool thorough : {false, true}) {
       std::vector<float> point;
@@ -329,16 +332,16 @@ TEST_F(OrderingTest, graphs_are_bisected_wherever_their_places_lie) {
         const float x = static_cast<float>(v % side_length), y = static_cast<float>(v / side_length);
         point.insert(point.end(), {scale[0] * x, scale[1] * y, scale[2]});
       }
-      std::vector<std::uint8_t> side(static_cast<std::size_t>(n), hf_inner::side_between);
-      const hf_inner::GraphView graph{n, start.data(), neighbour.data(), point.data(), nullptr};
-      const hf_inner::Cut cut = search.bisect(graph, side.data(), thorough);
+      std::vector<std::uint8_t> side(static_cast<std::size_t>(n), hf_inner::factor::side_between);
+      const hf_inner::factor::GraphView graph{n, start.data(), neighbour.data(), point.data(), nullptr};
+      const hf_inner::factor::Cut cut = search.bisect(graph, side.data(), thorough);
       EXPECT_TRUE(cut.usable()) << scale[0] << " " << scale[1];
       EXPECT_LE(cut.separator, side_length) << scale[0] << " " << scale[1];
       for (std::int32_t v = 0; v < n; ++v) {
         for (std::int32_t e = start[static_cast<std::size_t>(v)]; e < start[static_cast<std::size_t>(v) + 1]; ++e) {
           const std::int32_t u = neighbour[static_cast<std::size_t>(e)];
-          ASSERT_FALSE(side[static_cast<std::size_t>(v)] == hf_inner::side_left &&
-                       side[static_cast<std::size_t>(u)] == hf_inner::side_right);
+          ASSERT_FALSE(side[static_cast<std::size_t>(v)] == hf_inner::factor::side_left &&
+                       side[static_cast<std::size_t>(u)] == hf_inner::factor::side_right);
         }
       }
     }

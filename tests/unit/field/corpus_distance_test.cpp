@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using hf_inner::at;
-using hf_inner::DistanceMethod;
 using hf_inner::Index;
+using hf_inner::field::DistanceMethod;
 
 struct Errors {
   double mean = 0, worst = 0;  // shares of the largest exact distance
@@ -55,21 +55,23 @@ TEST(CorpusDistance, is_off_by_one_per_cent_at_most_and_by_three_at_worst_on_rea
     hf_test::PlainMesh plain;
     for (const auto& p : read.positions) plain.positions.insert(plain.positions.end(), {p.x, p.y, p.z});
     plain.triangles = read.triangles;
-    hf_inner::MeshInput input;
+    hf_inner::mesh::MeshInput input;
     input.vertex_count = plain.vertex_count();
     input.triangle_count = plain.triangle_count();
     input.positions = hf_inner::ConstRows(plain.positions.data(), 3 * sizeof(double));
     input.triangles = hf_inner::IndexRows(plain.triangles.data(), 3);
-    const hf_inner::Surface surface(
-        hf_inner::Geometry::make(input, hf_inner::OperatorKind::intrinsic_delaunay,
-                                 std::make_shared<hf_inner::Memory>(), std::make_shared<hf_inner::JobRunner>(1)),
+    const hf_inner::surface::Surface surface(
+        hf_inner::surface::Geometry::make(input, hf_inner::mesh::OperatorKind::intrinsic_delaunay,
+                                          std::make_shared<hf_inner::Memory>(),
+                                          std::make_shared<hf_inner::JobRunner>(1)),
         {});
     const std::size_t n = surface.geometry().mesh.positions.size();
-    const hf_inner::Distances standard(surface, DistanceMethod::automatic, 1), exact(surface, DistanceMethod::exact, 1),
-        heat(surface, DistanceMethod::heat, 1), front(surface, DistanceMethod::front, 1);
+    const hf_inner::field::Distances standard(surface, DistanceMethod::automatic, 1),
+        exact(surface, DistanceMethod::exact, 1), heat(surface, DistanceMethod::heat, 1),
+        front(surface, DistanceMethod::front, 1);
     Errors worst, worst_heat, worst_front;
     for (const Index source : {Index{0}, static_cast<Index>(n / 3), static_cast<Index>(n - 1)}) {
-      const auto solve = [&](const hf_inner::Distances& method) {
+      const auto solve = [&](const hf_inner::field::Distances& method) {
         std::vector<double> d(n);
         method.solve(hf_inner::Span<const Index>(&source, 1), d.data());
         return d;

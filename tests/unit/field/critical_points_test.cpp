@@ -16,23 +16,23 @@
 namespace {
 
 using hf_inner::at;
-using hf_inner::CriticalKind;
-using hf_inner::CriticalPoints;
+using hf_inner::field::CriticalKind;
+using hf_inner::field::CriticalPoints;
 using hf_test::PlainMesh;
 
-std::shared_ptr<const hf_inner::Core> bare(const PlainMesh& mesh) {
-  hf_inner::CoreOptions options;
+std::shared_ptr<const hf_inner::surface::Core> bare(const PlainMesh& mesh) {
+  hf_inner::surface::CoreOptions options;
   options.need_factor = false;
   return hf_test::make_core(mesh, 1, options);
 }
 
-CriticalPoints find(const hf_inner::Core& core, const std::vector<double>& field) {
+CriticalPoints find(const hf_inner::surface::Core& core, const std::vector<double>& field) {
   static hf_inner::Memory memory;  // outlives the core
-  return hf_inner::find_critical_points(core.mesh, core.topology(), field, memory);
+  return hf_inner::field::find_critical_points(core.mesh, core.topology(), field, memory);
 }
 
 // index by the sign changes around the ring of an inner manifold vertex: 1 - changes / 2
-int index_by_walking(const hf_inner::Core& core, const std::vector<double>& u, int v) {
+int index_by_walking(const hf_inner::surface::Core& core, const std::vector<double>& u, int v) {
   const auto below = [&](int w) {
     const std::size_t a = static_cast<std::size_t>(w), b = static_cast<std::size_t>(v);
     return u[a] != u[b] ? u[a] < u[b] : w < v;
@@ -109,7 +109,7 @@ TEST(CriticalPoints, of_a_height_are_those_one_expects) {
     return a * a * a - 3 * a * b * b + 1e-9 * (a + 2 * b);
   }));
   const auto centre = std::find_if(monkey.points.begin(), monkey.points.end(),
-                                   [](const hf_inner::CriticalPoint& p) { return p.vertex == 6 * 11 + 5; });
+                                   [](const hf_inner::field::CriticalPoint& p) { return p.vertex == 6 * 11 + 5; });
   ASSERT_TRUE(centre != monkey.points.end());
   EXPECT_EQ(centre->kind, CriticalKind::saddle);
   EXPECT_EQ(centre->index, -2);
@@ -143,8 +143,9 @@ TEST(CriticalPoints, sum_up_on_every_component_with_borders_ties_missing_values_
 
 // ---- fields
 
-void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
-  hf_inner::FieldEdit edit;
+void add(hf_inner::field::ScalarField& field, const std::vector<std::uint32_t>& vertices,
+         const std::vector<double>& values) {
+  hf_inner::field::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
   edit.add_holds.values = values.data();
@@ -162,13 +163,13 @@ std::vector<std::uint32_t> different_vertices(std::uint32_t below, std::size_t c
 
 TEST(MaximumPrinciple, holds_for_1000_random_site_sets_with_weights_above_zero) {
   PlainMesh mesh = hf_test::torus(24, 14, 0.35);
-  hf_inner::CoreOptions options;
-  options.operator_kind = hf_inner::OperatorKind::clamped;
+  hf_inner::surface::CoreOptions options;
+  options.operator_kind = hf_inner::mesh::OperatorKind::clamped;
   const auto core = hf_test::make_core(mesh, 1, options);
   std::mt19937_64 random(5);
   std::vector<double> u(mesh.vertex_count());
   for (int set = 0; set < 1000; ++set) {
-    hf_inner::ScalarField field(core, 1, 1000);
+    hf_inner::field::ScalarField field(core, 1, 1000);
     const auto vertices = different_vertices(mesh.vertex_count(), 2 + random() % 9, random);
     std::vector<double> values;
     for (std::size_t i = 0; i < vertices.size(); ++i) values.push_back(static_cast<double>(random() % 1000) / 1000);
@@ -195,7 +196,7 @@ TEST(MaximumPrinciple, holds_along_the_edges_of_the_intrinsic_operator) {
   std::vector<double> u(mesh.vertex_count());
   int seeming = 0;
   for (int set = 0; set < 200; ++set) {
-    hf_inner::ScalarField field(core, 1, 1000);
+    hf_inner::field::ScalarField field(core, 1, 1000);
     const auto vertices = different_vertices(mesh.vertex_count(), 10, random);
     std::vector<double> values;
     for (std::size_t i = 0; i < vertices.size(); ++i) values.push_back(static_cast<double>(random() % 1000) / 1000);
@@ -225,11 +226,11 @@ TEST(MaximumPrinciple, holds_along_the_edges_of_the_intrinsic_operator) {
 
 // ---- the paper's open question (docs/fields.md)
 
-std::vector<double> solve(const std::shared_ptr<const hf_inner::Core>& core, hf_test::EngineKind engine,
+std::vector<double> solve(const std::shared_ptr<const hf_inner::surface::Core>& core, hf_test::EngineKind engine,
                           double stiffness, const std::vector<std::uint32_t>& vertices,
                           const std::vector<double>& values) {
-  hf_inner::ScalarField field(core, 1, 100000, hf_test::make_engine(engine, core));
-  hf_inner::FieldEdit edit;
+  hf_inner::field::ScalarField field(core, 1, 100000, hf_test::make_engine(engine, core));
+  hf_inner::field::FieldEdit edit;
   const std::vector<double> soft(vertices.size(), stiffness);
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
@@ -243,13 +244,14 @@ std::vector<double> solve(const std::shared_ptr<const hf_inner::Core>& core, hf_
 
 bool same_points(const CriticalPoints& a, const CriticalPoints& b) {
   return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(),
-                    [](const hf_inner::CriticalPoint& p, const hf_inner::CriticalPoint& q) {
+                    [](const hf_inner::field::CriticalPoint& p, const hf_inner::field::CriticalPoint& q) {
                       return p.vertex == q.vertex && p.kind == q.kind && p.index == q.index;
                     });
 }
 
 // No two of them neighbours: equal values next to each other are a tie, which anything decides.
-std::vector<std::uint32_t> scattered_vertices(const hf_inner::Core& core, std::size_t count, std::mt19937_64& random) {
+std::vector<std::uint32_t> scattered_vertices(const hf_inner::surface::Core& core, std::size_t count,
+                                              std::mt19937_64& random) {
   std::vector<std::uint32_t> vertices;
   while (vertices.size() < count) {
     const std::uint32_t v = static_cast<std::uint32_t>(random() % static_cast<std::uint64_t>(core.size()));
@@ -272,8 +274,9 @@ TEST(CriticalPointsUnderPenalty, are_the_very_vertices_of_the_exact_field) {
   int sets = 0, changed_at_100 = 0, changed_at_1 = 0;
   for (int run = 0; run < 10; ++run) {
     const PlainMesh& mesh = meshes[run / 2];
-    hf_inner::CoreOptions options;  // the paper's operator and the default
-    options.operator_kind = run % 2 ? hf_inner::OperatorKind::cotangent : hf_inner::OperatorKind::intrinsic_delaunay;
+    hf_inner::surface::CoreOptions options;  // the paper's operator and the default
+    options.operator_kind =
+        run % 2 ? hf_inner::mesh::OperatorKind::cotangent : hf_inner::mesh::OperatorKind::intrinsic_delaunay;
     const auto core = hf_test::make_core(mesh, 1, options);
     std::mt19937_64 random(7);
     for (const std::size_t count : {std::size_t{8}, std::size_t{64}}) {

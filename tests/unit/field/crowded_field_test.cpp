@@ -18,7 +18,7 @@ namespace {
 
 using hf_inner::at;
 using hf_inner::Index;
-using hf_inner::ScalarField;
+using hf_inner::field::ScalarField;
 using hf_test::EngineKind;
 using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using Column = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -32,7 +32,7 @@ hf_test::PlainMesh tetrahedron() {
 struct Trial {
   ScalarField field;
   std::vector<double> strength, target;
-  Trial(std::shared_ptr<const hf_inner::Core> core, EngineKind engine)
+  Trial(std::shared_ptr<const hf_inner::surface::Core> core, EngineKind engine)
       : field(core, 1, 1000, hf_test::make_engine(engine, core)) {}
 
   void screen(std::mt19937& random, double exponents) {
@@ -50,7 +50,7 @@ struct Trial {
     const double a = 0.02 + 0.94 * one(random), b = 0.02 + (0.96 - a) * one(random), point[3] = {a, b, 1 - a - b};
     const double value = 2 * one(random) - 1, stiffness = one(random) < 0.5 ? 0 : std::pow(10, 16 * one(random) - 8);
     const hf_place place = place_in(mesh.triangles.data(), mesh.triangle_count(), triangle, point);
-    hf_inner::FieldEdit edit;
+    hf_inner::field::FieldEdit edit;
     edit.add.count = 1;
     edit.add_holds.values = &value;
     edit.add_holds.stiffness = &stiffness;
@@ -66,7 +66,7 @@ struct Trial {
   }
   // The largest difference from the solution in long double, and the largest value of that.
   double error(double& size) const {
-    const hf_inner::Core& core = field.core();
+    const hf_inner::surface::Core& core = field.core();
     const int n = core.size(), k = static_cast<int>(field.sites().count());
     Matrix a = Matrix::Zero(n + k, n + k);
     Column b = Column::Zero(n + k);
@@ -119,7 +119,7 @@ void play(EngineKind engine, double exponents, int least_certified) {
       double size = 0;
       const double error = made.error(size);
       EXPECT_LE(error, 1e-8 * std::max(size, 1.0)) << "trial " << trial << " of " << mesh.vertex_count() << " vertices";
-      const hf_inner::Certificate found = hf_inner::certify(made.field);
+      const hf_inner::field::Certificate found = hf_inner::field::certify(made.field);
       const double worst = std::max({found.error, found.site_error, found.overshoot});
       certified += worst <= 1e-8;
       if (worst <= 1e-8 && found.value_range > 0) {
@@ -148,7 +148,7 @@ TEST(CrowdedField, weak_screening_loses_no_digits) {
     made.field.set_screening({made.strength.data(), made.strength.size()}, made.target.data());
     double size = 0;
     EXPECT_LE(made.error(size), 1e-9) << h;
-    EXPECT_LE(hf_inner::certify(made.field).error, 1e-7) << h;
+    EXPECT_LE(hf_inner::field::certify(made.field).error, 1e-7) << h;
   }
 }
 
@@ -168,7 +168,7 @@ TEST(CrowdedField, three_points_fix_their_triangle_under_any_screening) {
     const double values[3] = {0.2, 0.5, 0.8};
     const hf_place spread[3] = {
         {{0, 1, 2}, 0, {0.2, 0.7, 0.1}}, {{0, 1, 2}, 0, {0.5, 0.3, 0.2}}, {{0, 1, 2}, 0, {0.8, 0.1, 0.1}}};
-    hf_inner::FieldEdit edit;
+    hf_inner::field::FieldEdit edit;
     edit.add.count = 3;
     edit.add.places = spread;
     edit.add_holds.values = values;
@@ -189,16 +189,16 @@ TEST(CrowdedField, three_points_fix_their_triangle_under_any_screening) {
 
 // The error of a preview is measured where single precision may have no digit, or nothing is said of it.
 TEST(CrowdedField, previews_say_their_error) {
-  for (const auto kind : {hf_inner::FieldKind::harmonic, hf_inner::FieldKind::biharmonic}) {
+  for (const auto kind : {hf_inner::mesh::FieldKind::harmonic, hf_inner::mesh::FieldKind::biharmonic}) {
     for (const auto& mesh :
          {hf_test::grid(200, 1, 1, 0.1), hf_test::grid(40, 40, 1, 0.3), hf_test::grid(600, 2, 1, 0)}) {
-      hf_inner::CoreOptions options;
+      hf_inner::surface::CoreOptions options;
       options.field_kind = kind;
       const auto core = hf_test::make_core(mesh, 1, options);
       ScalarField field(core, 1, 1000);
       const std::uint32_t n = mesh.vertex_count(), vertices[4] = {0, n / 3, n / 2, n - 1};
       const double values[4] = {0, 100, -300, 50};
-      hf_inner::FieldEdit edit;
+      hf_inner::field::FieldEdit edit;
       edit.add.count = 4;
       edit.add.vertices = vertices;
       edit.add_holds.values = values;
@@ -207,10 +207,10 @@ TEST(CrowdedField, previews_say_their_error) {
       std::vector<double> exact(n), preview(n);
       field.solve(exact.data());
       for (const int corrections : {0, 1, 3}) {
-        const hf_inner::PreviewInfo info = field.solve_preview(corrections, preview.data());
+        const hf_inner::solve::PreviewInfo info = field.solve_preview(corrections, preview.data());
         double error = 0;
         for (std::size_t v = 0; v < n; ++v) error = std::max(error, std::fabs(preview[v] - exact[v]));
-        EXPECT_EQ(std::isinf(info.error_estimate), corrections == 0 && kind == hf_inner::FieldKind::biharmonic);
+        EXPECT_EQ(std::isinf(info.error_estimate), corrections == 0 && kind == hf_inner::mesh::FieldKind::biharmonic);
         EXPECT_LE(error, info.error_estimate + 1e-9)
             << n << " vertices, " << corrections << " corrections, kind " << static_cast<int>(kind);
       }

@@ -18,7 +18,7 @@ using hf_test::Complex;
 
 // Constraints on a solver of their own, slot by slot, and the field they should give.
 struct Constraints {
-  explicit Constraints(const std::shared_ptr<const hf_inner::Core>& core) : solver(core, 1) {}
+  explicit Constraints(const std::shared_ptr<const hf_inner::surface::Core>& core) : solver(core, 1) {}
   static Complex value_of(Index v) { return std::polar(1.0 + 0.1 * (v % 3), 0.7 * v); }
   void edit(const std::vector<Index>& remove, const std::vector<Index>& add, const std::vector<Index>& vertices) {
     solver.edit({remove, add, vertices});
@@ -48,12 +48,12 @@ struct Constraints {
     for (std::size_t v = 0; v < got.size(); ++v) worst = std::max(worst, std::abs(got[v] - exact[v]));
     return worst;
   }
-  hf_inner::DirectionSolver solver;
+  hf_inner::field::DirectionSolver solver;
   std::vector<Index> vertex;  // by slot
 };
 
 // A curved component, and a flat one whose operator is singular but for its pins.
-std::shared_ptr<const hf_inner::Core> two_components() {
+std::shared_ptr<const hf_inner::surface::Core> two_components() {
   hf_test::PlainMesh mesh = hf_test::torus(12, 9, 0.2);
   append(mesh, hf_test::sheared_patch(7, 6, 0.5), 30);
   return hf_test::make_core(mesh);
@@ -127,7 +127,7 @@ TEST(DirectionRebase, refuses_without_constraints_and_restores_the_same_bits) {
 
 struct Thousand {
   static constexpr std::uint32_t count = 1000, columns = 160, rows = 80;
-  explicit Thousand(std::shared_ptr<const hf_inner::Core> core) : field(std::move(core), 1, 100000) {}
+  explicit Thousand(std::shared_ptr<const hf_inner::surface::Core> core) : field(std::move(core), 1, 100000) {}
   std::vector<hf_inner::Vec3> solved() const {
     std::vector<hf_inner::Vec3> out(at(field.solver().core().size()));
     field.solve(out.data());
@@ -161,7 +161,7 @@ struct Thousand {
     taken[to] = true;
     field.move(1, &site, &to);
   }
-  hf_inner::DirectionField field;
+  hf_inner::field::DirectionField field;
   std::vector<bool> taken = std::vector<bool>(columns * rows, false);
   std::mt19937 random{5};
 };
@@ -180,7 +180,7 @@ TEST(DirectionRebase, edits_among_a_thousand_constraints_do_not_factorise) {
   EXPECT_EQ(t.field.solver().counters().factorisations, factorisations);
   EXPECT_EQ(t.field.count(), Thousand::count);
 
-  hf_inner::DirectionField fresh(core, 1, 100000);
+  hf_inner::field::DirectionField fresh(core, 1, 100000);
   std::vector<std::uint32_t> vertices;
   std::vector<double> vectors;
   for (const auto& c : t.field.constraints()) {

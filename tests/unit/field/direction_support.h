@@ -13,10 +13,10 @@ namespace hf_test {
 using Complex = std::complex<double>;
 
 // Minimises z' K z; vertices of components without a constraint get 0.
-inline std::vector<Complex> dense_field(const hf_inner::DirectionSolver& solver,
+inline std::vector<Complex> dense_field(const hf_inner::field::DirectionSolver& solver,
                                         const std::vector<std::int32_t>& vertices, const std::vector<Complex>& values) {
   const hf_inner::SymmetricMatrix& k = solver.matrix();
-  const hf_inner::Core& core = solver.core();
+  const hf_inner::surface::Core& core = solver.core();
   const int n = k.size(), m = 2 * static_cast<int>(vertices.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + m, n + m);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(n + m);

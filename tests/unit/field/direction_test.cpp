@@ -20,7 +20,7 @@ using hf_test::dense_field;
 using hf_test::PlainMesh;
 constexpr double pi = 3.14159265358979323846;
 
-std::vector<hf_inner::Vec3> solved(const hf_inner::DirectionField& field) {
+std::vector<hf_inner::Vec3> solved(const hf_inner::field::DirectionField& field) {
   std::vector<hf_inner::Vec3> out(at(field.solver().core().size()));
   field.solve(out.data());
   return out;
@@ -32,7 +32,7 @@ double largest_difference(const std::vector<hf_inner::Vec3>& a, const std::vecto
   return worst;
 }
 
-std::uint32_t add(hf_inner::DirectionField& field, std::uint32_t vertex, hf_inner::Vec3 vector) {
+std::uint32_t add(hf_inner::field::DirectionField& field, std::uint32_t vertex, hf_inner::Vec3 vector) {
   const double v[3] = {vector.x, vector.y, vector.z};
   std::uint32_t site = 99;
   field.add(1, &vertex, v, &site);
@@ -91,7 +91,7 @@ PlainMesh plate_with_holes(int holes) {
   return mesh;
 }
 
-int euler_characteristic(const hf_inner::Core& core) {
+int euler_characteristic(const hf_inner::surface::Core& core) {
   return core.size() - core.topology().edge_count() + core.mesh.triangle_count();
 }
 
@@ -101,7 +101,8 @@ TEST(Connection, curvature_of_a_closed_surface_sums_to_its_euler_characteristic)
   for (const auto& [mesh, euler] : cases) {
     const auto core = hf_test::make_core(mesh);
     ASSERT_EQ(euler_characteristic(*core), euler);
-    const hf_inner::Connection connection = hf_inner::Connection::make(core->mesh, core->topology(), *core->memory);
+    const hf_inner::field::Connection connection =
+        hf_inner::field::Connection::make(core->mesh, core->topology(), *core->memory);
     EXPECT_EQ(connection.irregular_count, 0u);
     EXPECT_EQ(connection.closed[0], 1);
     double sum = 0;
@@ -128,7 +129,8 @@ TEST(Connection, frames_are_tangent_and_right_handed_on_any_surface) {
   for (const auto& [name, mesh] : hf_test::dirty_meshes()) {
     SCOPED_TRACE(name);
     const auto core = hf_test::make_core(mesh);
-    const hf_inner::Connection c = hf_inner::Connection::make(core->mesh, core->topology(), *core->memory);
+    const hf_inner::field::Connection c =
+        hf_inner::field::Connection::make(core->mesh, core->topology(), *core->memory);
     for (std::size_t v = 0; v < c.x.size(); ++v) {
       EXPECT_NEAR(norm(c.normal[v]), 1, 1e-14);
       EXPECT_NEAR(norm(c.x[v]), 1, 1e-14);
@@ -142,13 +144,13 @@ TEST(Connection, frames_are_tangent_and_right_handed_on_any_surface) {
 TEST(Direction, one_constraint_on_a_flat_patch_or_a_tube_gives_a_parallel_field) {
   const PlainMesh patch = hf_test::sheared_patch(12, 9, 0.4);
   const auto core = hf_test::make_core(patch);
-  hf_inner::DirectionField field(core, 1, 100);
+  hf_inner::field::DirectionField field(core, 1, 100);
   add(field, 20, {1, 2, 0});
   for (const hf_inner::Vec3 v : solved(field)) EXPECT_LE(norm(v - hf_inner::Vec3{1, 2, 0}), 1e-10);
 
   // on a tube the field turns with the surface and keeps its part along the axis; K is singular there
-  hf_inner::DirectionField around(hf_test::make_core(tube(24, 10)), 1, 100);
-  const hf_inner::Mesh& mesh = around.solver().core().mesh;
+  hf_inner::field::DirectionField around(hf_test::make_core(tube(24, 10)), 1, 100);
+  const hf_inner::mesh::Mesh& mesh = around.solver().core().mesh;
   const hf_inner::Vec3 p0 = mesh.to_given(mesh.positions[0]);
   add(around, 0, 2 * ((1 / std::hypot(p0.x, p0.y)) * hf_inner::Vec3{-p0.y, p0.x, 0}) + hf_inner::Vec3{0, 0, 1});
   const std::vector<hf_inner::Vec3> u = solved(around);
@@ -164,7 +166,7 @@ TEST(Direction, one_constraint_on_a_flat_patch_or_a_tube_gives_a_parallel_field)
 }
 
 struct Script {
-  Script(std::shared_ptr<const hf_inner::Core> core, std::int32_t degree, std::uint32_t seed)
+  Script(std::shared_ptr<const hf_inner::surface::Core> core, std::int32_t degree, std::uint32_t seed)
       : field(std::move(core), degree, 100000), random(seed) {}
   hf_inner::Vec3 random_vector() {
     std::normal_distribution<double> normal;
@@ -215,7 +217,7 @@ struct Script {
         field.set_vectors(1, &one, vector);
     }
   }
-  hf_inner::DirectionField field;
+  hf_inner::field::DirectionField field;
   std::mt19937 random;
 };
 
@@ -248,7 +250,7 @@ TEST(Direction, many_edits_equal_a_fresh_solve) {
   for (const int degree : {1, 2, 4}) {
     Script script(core, degree, 5);
     for (int round = 0; round < 400; ++round) script.step();
-    hf_inner::DirectionField fresh(core, degree, 1000);
+    hf_inner::field::DirectionField fresh(core, degree, 1000);
     for (const auto& c : script.field.constraints()) {
       if (c.vertex >= 0)
         add(fresh, static_cast<std::uint32_t>(c.vertex), fresh.solver().connection().to_space(c.vertex, c.vector));
@@ -260,7 +262,7 @@ TEST(Direction, many_edits_equal_a_fresh_solve) {
 
 TEST(Direction, thousands_of_constraints_go_into_the_factor_and_come_back) {
   const auto core = hf_test::make_core(hf_test::torus(60, 40, 0.2));
-  hf_inner::DirectionField field(core, 1, 100000);
+  hf_inner::field::DirectionField field(core, 1, 100000);
   std::vector<std::uint32_t> vertices, sites;
   std::vector<double> vectors;
   std::mt19937 random(9);
@@ -321,7 +323,7 @@ TEST(Direction, indices_sum_to_the_euler_characteristic_and_survive_edits) {
       for (int round = 0; round < 12; ++round) {
         script.step();
         int sum = 0;
-        for (const hf_inner::Singularity& s : script.field.singularities()) sum += s.index;
+        for (const hf_inner::field::Singularity& s : script.field.singularities()) sum += s.index;
         EXPECT_EQ(sum, degree * euler) << holes << " holes, degree " << degree << ", round " << round;
       }
     }
@@ -329,7 +331,7 @@ TEST(Direction, indices_sum_to_the_euler_characteristic_and_survive_edits) {
 }
 
 TEST(Direction, a_lone_constraint_on_a_sphere_leaves_few_singularities) {
-  hf_inner::DirectionField field(hf_test::make_core(hf_test::sphere(16)), 1, 10);
+  hf_inner::field::DirectionField field(hf_test::make_core(hf_test::sphere(16)), 1, 10);
   add(field, 40, {1, 1, 1});
   EXPECT_LE(field.singularities().size(), 4u);
 }
@@ -352,7 +354,7 @@ TEST(Direction, turning_and_rewriting_constraints_touch_no_factor_and_no_path) {
 }
 
 TEST(Direction, moving_carries_the_vector_along_the_surface) {
-  hf_inner::DirectionField field(hf_test::make_core(hf_test::sheared_patch(12, 9, 0.4)), 1, 10);
+  hf_inner::field::DirectionField field(hf_test::make_core(hf_test::sheared_patch(12, 9, 0.4)), 1, 10);
   const std::uint32_t site = add(field, 20, {1, 2, 0}), to = 100;
   field.move(1, &site, &to);
   EXPECT_LE(norm(solved(field)[100] - hf_inner::Vec3{1, 2, 0}), 1e-10);
@@ -371,7 +373,7 @@ TEST(Direction, fields_are_finite_and_tangent_on_dirty_surfaces) {
     SCOPED_TRACE(name);
     for (const int degree : {1, 4}) {
       const auto core = hf_test::make_core(mesh);
-      hf_inner::DirectionField field(core, degree, 100);
+      hf_inner::field::DirectionField field(core, degree, 100);
       for (std::int32_t v = 0; v < core->size(); v += 11) {
         const auto& c = field.solver().connection();
         add(field, static_cast<std::uint32_t>(core->mesh.given_of_inner[at(v)]), c.x[at(v)] + 0.3 * c.y[at(v)]);
@@ -389,13 +391,13 @@ TEST(Direction, fields_are_finite_and_tangent_on_dirty_surfaces) {
 
 TEST(Direction, does_not_depend_on_the_numbering_or_the_place_of_the_surface) {
   const PlainMesh mesh = hf_test::torus(20, 14, 0.25);
-  hf_inner::DirectionField first(hf_test::make_core(mesh), 1, 10);
+  hf_inner::field::DirectionField first(hf_test::make_core(mesh), 1, 10);
   const auto& frame = first.solver().connection();
   const std::uint32_t sites[] = {3, 100, 222};
   for (const std::uint32_t v : sites) add(first, v, frame.x[v] + frame.y[v]);
   const std::vector<hf_inner::Vec3> expected = solved(first);
   std::vector<std::uint32_t> place;
-  hf_inner::DirectionField second(hf_test::make_core(hf_test::shuffled_and_rotated(mesh, 3, place)), 1, 10);
+  hf_inner::field::DirectionField second(hf_test::make_core(hf_test::shuffled_and_rotated(mesh, 3, place)), 1, 10);
   const double a = 0.7 * 3, b = 1.3 * 3;  // as shuffled_and_rotated turns
   const auto turn = [&](hf_inner::Vec3 p) {
     const double x = std::cos(a) * p.x - std::sin(a) * p.y, y = std::sin(a) * p.x + std::cos(a) * p.y;
@@ -410,7 +412,7 @@ TEST(Direction, does_not_depend_on_the_numbering_or_the_place_of_the_surface) {
 }
 
 TEST(Direction, refuses_bad_edits_and_stays_as_it_was) {
-  hf_inner::DirectionField field(hf_test::make_core(hf_test::torus(12, 9)), 1, 4);
+  hf_inner::field::DirectionField field(hf_test::make_core(hf_test::torus(12, 9)), 1, 4);
   add(field, 5, {1, 2, 3});
   add(field, 50, {1, 0, 3});
   const std::vector<hf_inner::Vec3> before = solved(field);
@@ -448,9 +450,9 @@ TEST(Direction, refuses_bad_edits_and_stays_as_it_was) {
 TEST(Direction, its_factor_does_not_fill_where_the_surface_has_other_edges) {
   // a third of the edges of this torus are not those of the intrinsic operator, whose ordering separates other things
   const PlainMesh mesh = hf_test::torus(160, 80, 0.35);
-  hf_inner::CoreOptions plain;
-  plain.operator_kind = hf_inner::OperatorKind::cotangent;
-  const hf_inner::DirectionSolver own(hf_test::make_core(mesh, 1, plain), 1), other(hf_test::make_core(mesh), 1);
+  hf_inner::surface::CoreOptions plain;
+  plain.operator_kind = hf_inner::mesh::OperatorKind::cotangent;
+  const hf_inner::field::DirectionSolver own(hf_test::make_core(mesh, 1, plain), 1), other(hf_test::make_core(mesh), 1);
   EXPECT_LE(other.statistics().entries, 1.2 * own.statistics().entries);
   EXPECT_LE(other.statistics().flops, 1.4 * own.statistics().flops);
 }

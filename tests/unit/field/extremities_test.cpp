@@ -67,9 +67,9 @@ struct Found {
 // kind 0: Poisson, 1: geodesic. Lengths as shares of the box diagonal.
 std::vector<Found> search(const PlainMesh& mesh, int kind, double least = 0.012, std::uint32_t threads = 1) {
   const auto core = hf_test::make_core(mesh, threads);
-  const hf_inner::Extremities found = kind == 0
-                                          ? hf_inner::poisson_extremities(*core, least)
-                                          : hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 40, least);
+  const hf_inner::field::Extremities found =
+      kind == 0 ? hf_inner::field::poisson_extremities(*core, least)
+                : hf_inner::field::geodesic_extremities(hf_inner::field::Geodesics(core, 1), 40, least);
   std::vector<Found> list;
   for (const auto& point : found.points)
     list.push_back({core->mesh.to_given(core->mesh.positions[static_cast<std::size_t>(point.vertex)]), point.length});
@@ -203,12 +203,12 @@ TEST(Extremities, can_be_cancelled) {
   progress.cancel();
   const hf_inner::CallProgress call(&progress);
   try {
-    hf_inner::poisson_extremities(*core, 0.05);
+    hf_inner::field::poisson_extremities(*core, 0.05);
     FAIL();
   } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_CANCELLED);
   }
-  EXPECT_THROW(hf_inner::geodesic_extremities(hf_inner::Geodesics(core, 1), 8, 0.05), hf_inner::Error);
+  EXPECT_THROW(hf_inner::field::geodesic_extremities(hf_inner::field::Geodesics(core, 1), 8, 0.05), hf_inner::Error);
 }
 
 // Persistence by the definition: the lowest point of the best way from a peak to something higher, by flooding.
@@ -238,7 +238,7 @@ TEST(Peaks, have_the_persistence_that_flooding_from_the_top_finds) {
       std::sort(around.begin(), around.end(), higher);
       around.erase(std::unique(around.begin(), around.end()), around.end());
       if (around.empty()) {
-        expected[v] = hf_inner::Mesh::none;
+        expected[v] = hf_inner::mesh::Mesh::none;
         name[static_cast<std::size_t>(v)] = v;
         continue;
       }
@@ -248,9 +248,10 @@ TEST(Peaks, have_the_persistence_that_flooding_from_the_top_finds) {
       }
       name[static_cast<std::size_t>(v)] = around[0];
     }
-    const auto peaks = hf_inner::find_peaks(core->topology(), u, *core->memory);
+    const auto peaks = hf_inner::field::find_peaks(core->topology(), u, *core->memory);
     ASSERT_EQ(peaks.size(), expected.size());
-    for (const hf_inner::Peak& peak : peaks) EXPECT_EQ(peak.saddle, expected.at(peak.vertex)) << "peak " << peak.vertex;
+    for (const hf_inner::field::Peak& peak : peaks)
+      EXPECT_EQ(peak.saddle, expected.at(peak.vertex)) << "peak " << peak.vertex;
   }
 }
 

@@ -17,15 +17,15 @@ using hf_test::PlainMesh;
 
 PlainMesh from_shape(samples::ShapeMesh shape) { return {std::move(shape.positions), std::move(shape.triangles)}; }
 
-hf_inner::ScalarField make_field(const PlainMesh& mesh, hf_test::EngineKind engine = hf_test::EngineKind::green,
-                                 int channels = 1) {
+hf_inner::field::ScalarField make_field(const PlainMesh& mesh, hf_test::EngineKind engine = hf_test::EngineKind::green,
+                                        int channels = 1) {
   const auto core = hf_test::make_core(mesh);
-  return hf_inner::ScalarField(core, channels, 100000, hf_test::make_engine(engine, core));
+  return hf_inner::field::ScalarField(core, channels, 100000, hf_test::make_engine(engine, core));
 }
 
-void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
-         const std::vector<double>& stiffness = {}) {
-  hf_inner::FieldEdit edit;
+void add(hf_inner::field::ScalarField& field, const std::vector<std::uint32_t>& vertices,
+         const std::vector<double>& values, const std::vector<double>& stiffness = {}) {
+  hf_inner::field::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
   edit.add_holds.values = values.data();
@@ -33,7 +33,7 @@ void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertice
   field.edit(edit, nullptr);
 }
 
-std::vector<double> solve(const hf_inner::ScalarField& field) {
+std::vector<double> solve(const hf_inner::field::ScalarField& field) {
   std::vector<double> u(static_cast<std::size_t>(field.core().size() * field.sites().channels()));
   field.solve(u.data());
   return u;
@@ -42,7 +42,7 @@ std::vector<double> solve(const hf_inner::ScalarField& field) {
 TEST(HarmonicField, is_linear_on_a_flat_patch_with_linear_borders) {
   const std::uint32_t nx = 30, ny = 20;
   const PlainMesh mesh = hf_test::grid(nx, ny, 1, 0.35, 3);
-  hf_inner::ScalarField field = make_field(mesh);
+  hf_inner::field::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> border;
   std::vector<double> values;
   const auto linear = [&](std::uint32_t v) {
@@ -64,7 +64,7 @@ TEST(HarmonicField, has_natural_borders) {
   // sites on the short sides only: linear along the strip, zero flux through the long sides
   const std::uint32_t nx = 40, ny = 9;
   const PlainMesh mesh = hf_test::grid(nx, ny, 1, 0.3, 8);
-  hf_inner::ScalarField field = make_field(mesh);
+  hf_inner::field::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> ends;
   std::vector<double> values;
   for (std::uint32_t j = 0; j <= ny; ++j) {
@@ -97,7 +97,7 @@ double annulus_error(std::uint32_t rings) {
         mesh.triangles.insert(mesh.triangles.end(), {a, c, d, a, d, b});
     }
   }
-  hf_inner::ScalarField field = make_field(mesh);
+  hf_inner::field::ScalarField field = make_field(mesh);
   std::vector<std::uint32_t> rim;
   std::vector<double> values;
   for (std::uint32_t j = 0; j < around; ++j) {
@@ -134,8 +134,8 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes) {
                {"large torus", std::getenv("HF_FULL_TESTS") ? from_shape(samples::jittered_torus(551, 552))
                                                             : from_shape(samples::jittered_torus(205, 206))}};
   for (const auto& entry : cases) {
-    hf_inner::ScalarField exact = make_field(entry.mesh, hf_test::EngineKind::refactor);
-    hf_inner::ScalarField soft(exact.shared_core(), 1, 1000);
+    hf_inner::field::ScalarField exact = make_field(entry.mesh, hf_test::EngineKind::refactor);
+    hf_inner::field::ScalarField soft(exact.shared_core(), 1, 1000);
     std::set<std::uint32_t> seen;
     std::vector<std::uint32_t> vertices;
     std::vector<double> values;
@@ -149,7 +149,7 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes) {
     add(exact, vertices, values);
     add(soft, vertices, values, std::vector<double>(60, 1e8));
     const auto u = solve(exact), penalty = solve(soft);
-    hf_inner::ScalarField hard(exact.shared_core(), 1, 1000);
+    hf_inner::field::ScalarField hard(exact.shared_core(), 1, 1000);
     add(hard, vertices, values);
     const auto green = solve(hard);
     double penalty_error = 0, green_error = 0;
@@ -162,8 +162,8 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes) {
     EXPECT_LE(penalty_error, 1e-6) << entry.name;
     EXPECT_LE(green_error, 1e-11) << entry.name;
 #ifdef HF_WITH_GPL
-    hf_inner::ScalarField updown(exact.shared_core(), 1, 1000,
-                                 hf_test::make_engine(hf_test::EngineKind::updown, exact.shared_core()));
+    hf_inner::field::ScalarField updown(exact.shared_core(), 1, 1000,
+                                        hf_test::make_engine(hf_test::EngineKind::updown, exact.shared_core()));
     add(updown, vertices, values);
     const auto paper = solve(updown);
     double paper_error = 0, same = 0;
@@ -180,13 +180,13 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes) {
 
 TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_factor) {
   const PlainMesh mesh = hf_test::torus(60, 40);
-  hf_inner::ScalarField field = make_field(mesh, hf_test::EngineKind::green, 3);
-  const auto normals = hf_inner::vertex_normals(field.core().mesh, *field.core().memory);
+  hf_inner::field::ScalarField field = make_field(mesh, hf_test::EngineKind::green, 3);
+  const auto normals = hf_inner::field::vertex_normals(field.core().mesh, *field.core().memory);
   const std::vector<std::uint32_t> vertices = {3, 700, 1500};
   add(field, vertices, {1, 0, 0, 0, 1, 0, 0, 0, 1});
   const auto tangent = [&] {
     auto v = solve(field);
-    hf_inner::project_on_tangent_planes(normals, v.data());
+    hf_inner::field::project_on_tangent_planes(normals, v.data());
     double worst = 0;
     for (std::size_t i = 0; i < normals.size(); ++i)
       worst = std::max(worst,
@@ -199,7 +199,7 @@ TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_facto
   for (int step = 1; step <= 8; ++step) {  // turn the first vector about z
     const double a = 0.1 * step, turned[] = {std::cos(a), std::sin(a), 0};
     const std::uint32_t site[] = {0};
-    hf_inner::FieldEdit edit;
+    hf_inner::field::FieldEdit edit;
     edit.set_count = 1;
     edit.set_sites = site;
     edit.set_values = turned;
@@ -211,21 +211,21 @@ TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_facto
   // insert, move and delete come back to where they began
   const std::uint32_t first[] = {0};
   const double x[] = {1, 0, 0};
-  hf_inner::FieldEdit back;
+  hf_inner::field::FieldEdit back;
   back.set_count = 1;
   back.set_sites = first;
   back.set_values = x;
   field.edit(back, nullptr);
   add(field, {99}, {0.5, 0.5, 0});
   const std::uint32_t there[] = {101}, fourth[] = {3};
-  hf_inner::FieldEdit move;
+  hf_inner::field::FieldEdit move;
   move.move_count = 1;
   move.move_sites = fourth;
   move.move_to.count = 1;
   move.move_to.vertices = there;
   field.edit(move, nullptr);
   EXPECT_EQ(solve(field)[3 * 101], 0.5);
-  hf_inner::FieldEdit remove;
+  hf_inner::field::FieldEdit remove;
   remove.remove_count = 1;
   remove.remove_sites = fourth;
   field.edit(remove, nullptr);
@@ -236,11 +236,11 @@ TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_facto
 TEST(MaximumPrinciple, holds_with_clamped_weights_on_an_obtuse_mesh) {
   PlainMesh mesh = hf_test::grid(40, 8, 1, 0.3, 2);
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) mesh.positions[i] += 2 * mesh.positions[i + 1];
-  hf_inner::CoreOptions options;
-  options.operator_kind = hf_inner::OperatorKind::clamped;
+  hf_inner::surface::CoreOptions options;
+  options.operator_kind = hf_inner::mesh::OperatorKind::clamped;
   const auto core = hf_test::make_core(mesh, 1, options);
   for (int trial = 0; trial < 100; ++trial) {
-    hf_inner::ScalarField field(core, 1, 100);
+    hf_inner::field::ScalarField field(core, 1, 100);
     std::set<std::uint32_t> seen;
     std::vector<double> values;
     for (std::uint32_t i = 0; seen.size() < 5; ++i)

@@ -21,11 +21,11 @@ PlainMesh from_shape(samples::ShapeMesh shape) { return {std::move(shape.positio
 
 struct Field {
   explicit Field(const PlainMesh& mesh, hf_test::EngineKind engine = hf_test::EngineKind::green,
-                 hf_inner::CoreOptions options = {})
+                 hf_inner::surface::CoreOptions options = {})
       : core(hf_test::make_core(mesh, 1, options)), field(core, 1, 5000, hf_test::make_engine(engine, core)) {}
   std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
                                  const std::vector<double>& radii, const std::vector<double>& stiffness = {}) {
-    hf_inner::FieldEdit edit;
+    hf_inner::field::FieldEdit edit;
     edit.add.count = static_cast<std::uint32_t>(vertices.size());
     edit.add.vertices = vertices.data();
     edit.add_holds.radii = radii.data();
@@ -40,8 +40,8 @@ struct Field {
     field.solve(u.data());
     return u;
   }
-  std::shared_ptr<const hf_inner::Core> core;
-  hf_inner::ScalarField field;
+  std::shared_ptr<const hf_inner::surface::Core> core;
+  hf_inner::field::ScalarField field;
 };
 
 TEST(GeodesicDisc, is_exact_on_a_plane) {
@@ -51,10 +51,10 @@ TEST(GeodesicDisc, is_exact_on_a_plane) {
   const std::int32_t point[3] = {middle, -1, -1};
   const double weight[3] = {1, 0, 0};
   const auto disc =
-      hf_inner::geodesic_disc(core->mesh, core->topology(), point, weight, 2.0 / core->mesh.scale, *core->memory);
+      hf_inner::mesh::geodesic_disc(core->mesh, core->topology(), point, weight, 2.0 / core->mesh.scale, *core->memory);
   ASSERT_GT(disc.size(), 1000u);
   double last = 0;
-  for (const hf_inner::DiscVertex& v : disc) {
+  for (const hf_inner::mesh::DiscVertex& v : disc) {
     const hf_inner::Vec3 d = core->mesh.positions[at(v.vertex)] - core->mesh.positions[at(middle)];
     EXPECT_NEAR(v.distance, norm(d), 1e-12);
     EXPECT_GE(v.distance, last);
@@ -74,8 +74,8 @@ TEST(GeodesicDisc, follows_great_circles_from_a_point_in_a_face) {
   }
   const double radius = norm(core->mesh.positions[0]);
   source = (radius / norm(source)) * source;
-  const auto disc = hf_inner::geodesic_disc(core->mesh, core->topology(), point, weight, radius, *core->memory);
-  for (const hf_inner::DiscVertex& v : disc) {
+  const auto disc = hf_inner::mesh::geodesic_disc(core->mesh, core->topology(), point, weight, radius, *core->memory);
+  for (const hf_inner::mesh::DiscVertex& v : disc) {
     const double arc = radius * std::atan2(norm(cross(source, core->mesh.positions[at(v.vertex)])),
                                            dot(source, core->mesh.positions[at(v.vertex)]));
     EXPECT_NEAR(v.distance, arc, 0.01 * radius);
@@ -88,7 +88,7 @@ double middle_share(std::uint32_t side, double radius) {
   Field field(from_shape(shape));
   field.add({0, side * side / 2 + side / 2}, {0, 1}, {radius, radius});
   const std::vector<double> u = field.solve();
-  const hf_inner::Mesh& mesh = field.field.core().mesh;
+  const hf_inner::mesh::Mesh& mesh = field.field.core().mesh;
   double inside = 0, all = 0;
   for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::int32_t* v = mesh.triangle(t);
@@ -149,7 +149,7 @@ TEST(FiniteRadius, moves_and_changes_value_as_one_site_and_leaves_nothing_behind
   const std::vector<double> before = field.solve();
   const std::uint32_t away = 700, back = 1220;
   const double two = 2, one = 1;
-  hf_inner::FieldEdit edit;
+  hf_inner::field::FieldEdit edit;
   edit.move_count = 1;
   edit.move_sites = &numbers[1];
   edit.move_to.count = 1;
@@ -166,7 +166,7 @@ TEST(FiniteRadius, moves_and_changes_value_as_one_site_and_leaves_nothing_behind
   field.field.edit(edit, nullptr);
   const std::vector<double> after = field.solve();
   for (std::size_t v = 0; v < before.size(); ++v) EXPECT_NEAR(after[v], before[v], 1e-12);
-  hf_inner::FieldEdit out;
+  hf_inner::field::FieldEdit out;
   out.remove_count = 2;
   out.remove_sites = numbers.data();
   field.field.edit(out, nullptr);
@@ -202,17 +202,17 @@ TEST(FiniteRadius, refuses_overlaps_hidden_numbers_and_too_many_vertices) {
   }
   ASSERT_NE(hidden, numbers[0]);
   EXPECT_EQ(code_of([&] {
-              hf_inner::FieldEdit edit;
+              hf_inner::field::FieldEdit edit;
               edit.remove_count = 1;
               edit.remove_sites = &hidden;
               field.field.edit(edit, nullptr);
             }),
             HF_ERROR_NOT_FOUND);
   EXPECT_EQ(field.solve(), before);
-  hf_inner::ScalarField small(field.field.shared_core(), 1, 10);
+  hf_inner::field::ScalarField small(field.field.shared_core(), 1, 10);
   const std::uint32_t v = 0;
   const double radius = 0.5;
-  hf_inner::FieldEdit edit;
+  hf_inner::field::FieldEdit edit;
   edit.add.count = 1;
   edit.add.vertices = &v;
   edit.add_holds.radii = &radius;
@@ -238,8 +238,8 @@ TEST(FiniteRadius, soft_discs_share_their_stiffness) {
 }
 
 TEST(FiniteRadius, holds_whole_discs_of_a_biharmonic_field) {
-  hf_inner::CoreOptions options;
-  options.field_kind = hf_inner::FieldKind::biharmonic;
+  hf_inner::surface::CoreOptions options;
+  options.field_kind = hf_inner::mesh::FieldKind::biharmonic;
   Field field(hf_test::torus(60, 40), hf_test::EngineKind::green, options);
   field.add({0, 1220}, {0, 1}, {0.5, 0.5});
   int held = 0;

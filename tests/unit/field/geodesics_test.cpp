@@ -17,7 +17,7 @@ using hf_test::PlainMesh;
 std::vector<double> distance(const PlainMesh& mesh, const std::vector<std::int32_t>& sources, double smoothing = 1,
                              std::uint32_t threads = 1) {
   const auto core = hf_test::make_core(mesh, threads);
-  const hf_inner::Geodesics geodesics(core, smoothing);
+  const hf_inner::field::Geodesics geodesics(core, smoothing);
   std::vector<double> d(mesh.vertex_count());
   geodesics.distance(sources, d.data());
   for (double& value : d) value *= value < 0 ? 1 : core->mesh.scale;
@@ -98,15 +98,15 @@ TEST(SpreadSamples, are_far_apart_cover_every_component_and_share_its_area) {
   PlainMesh mesh = hf_test::torus(40, 24);
   hf_test::append(mesh, hf_test::grid(1, 1), 10);
   const auto core = hf_test::make_core(mesh);
-  const auto areas = hf_inner::vertex_areas(core->mesh, *core->memory);
-  const auto samples = hf_inner::spread_samples(core->mesh, core->topology(), areas, 12, *core->memory);
+  const auto areas = hf_inner::mesh::vertex_areas(core->mesh, *core->memory);
+  const auto samples = hf_inner::field::spread_samples(core->mesh, core->topology(), areas, 12, *core->memory);
   for (int c = 0; c < 2; ++c) {
     double sum = 0;
     std::vector<int> chosen;
     for (std::size_t i = 0; i < 12; ++i) {
       const std::size_t k = static_cast<std::size_t>(c) * 12 + i;
       sum += samples.share[k];
-      if (samples.vertex[k] != hf_inner::Mesh::none) chosen.push_back(samples.vertex[k]);
+      if (samples.vertex[k] != hf_inner::mesh::Mesh::none) chosen.push_back(samples.vertex[k]);
     }
     EXPECT_NEAR(sum, 1, 1e-12);
     EXPECT_EQ(chosen.size(), c == 0 ? 12u : 4u);
@@ -130,7 +130,7 @@ TEST(Directions, are_unit_vectors_to_1e_9_however_faint_the_heat_and_many_the_ch
   for (const double faint : {1.0, 1e-200, 1e-290}) {
     for (std::int32_t channels = 1; channels <= 8; ++channels) {
       const std::size_t k = static_cast<std::size_t>(channels);
-      std::vector<hf_inner::TriangleFrame> frames;
+      std::vector<hf_inner::field::TriangleFrame> frames;
       std::vector<double> heat(20 * k), weight(2 * k), sums(100, 0.0);
       for (double& u : heat) u = faint * number();
       for (double& w : weight) w = number();
@@ -139,9 +139,9 @@ TEST(Directions, are_unit_vectors_to_1e_9_however_faint_the_heat_and_many_the_ch
         frames.push_back({0.1 + number(), number() - 0.5, 0.01 + number(), {row, row + 2, row + 1}, t % 2});
       }
       for (std::size_t c = 0; c < k; ++c) heat[3 * k + c] = heat[4 * k + c] = heat[5 * k + c] = 0.5 * faint;  // flat
-      hf_inner::add_directions({frames.data(), heat.data(), weight.data(), channels, sums.data()}, 0, 50);
+      hf_inner::field::add_directions({frames.data(), heat.data(), weight.data(), channels, sums.data()}, 0, 50);
       for (std::size_t t = 0; t < frames.size(); ++t) {
-        const hf_inner::TriangleFrame& f = frames[t];
+        const hf_inner::field::TriangleFrame& f = frames[t];
         double x = 0, y = 0;
         for (std::size_t c = 0; c < k; ++c) {
           const auto u = [&](std::size_t corner) {
@@ -173,7 +173,7 @@ TEST(MeanDistance, of_a_component_is_the_one_it_has_alone) {
   const auto mean = [](const PlainMesh& mesh) {
     const auto core = hf_test::make_core(mesh);
     std::vector<double> d(mesh.vertex_count());
-    hf_inner::Geodesics(core, 1).average(12, d.data());
+    hf_inner::field::Geodesics(core, 1).average(12, d.data());
     for (double& x : d) x *= core->mesh.scale;
     return d;
   };
@@ -189,7 +189,7 @@ struct Edge {
   double length;
 };
 
-std::vector<Edge> edges_of(const hf_inner::Core& core) {
+std::vector<Edge> edges_of(const hf_inner::surface::Core& core) {
   std::vector<Edge> edges;
   for (std::int32_t e = 0; e < core.topology().edge_count(); ++e) {
     const std::size_t a = static_cast<std::size_t>(core.topology().first(e));
@@ -200,7 +200,7 @@ std::vector<Edge> edges_of(const hf_inner::Core& core) {
 }
 
 // Distance from the nearest of the sources by Bellman and Ford, over the edges.
-std::vector<double> edge_distance(const hf_inner::Core& core, const std::vector<Edge>& edges,
+std::vector<double> edge_distance(const hf_inner::surface::Core& core, const std::vector<Edge>& edges,
                                   const std::vector<std::int32_t>& sources) {
   std::vector<double> d(static_cast<std::size_t>(core.size()), 1e9);
   for (const std::int32_t s : sources) d[static_cast<std::size_t>(s)] = 0;
@@ -229,7 +229,8 @@ TEST(SpreadSamples, lie_as_far_apart_as_the_surface_is_from_them_by_patches_too)
   const auto core = hf_test::make_core(mesh);
   const std::vector<Edge> edges = edges_of(*core);
   for (const std::int32_t count : {12, 30}) {
-    const auto samples = hf_inner::spread_samples(core->mesh, core->topology(), core->areas, count, *core->memory);
+    const auto samples =
+        hf_inner::field::spread_samples(core->mesh, core->topology(), core->areas, count, *core->memory);
     const std::vector<std::int32_t> chosen(samples.vertex.begin(), samples.vertex.end());
     const std::vector<double> nearest = edge_distance(*core, edges, chosen);
     const double radius = *std::max_element(nearest.begin(), nearest.end());
@@ -255,7 +256,8 @@ TEST(SpreadSamples, share_out_the_area_of_every_vertex_of_a_patch) {
   hf_inner::Vector<double> areas(core->areas.size(), 0.0, core->memory.get());
   areas[1] = 2;  // beside the middle of the first patch
   double sum = 0;
-  for (const double share : hf_inner::spread_samples(core->mesh, core->topology(), areas, 6, *core->memory).share)
+  for (const double share :
+       hf_inner::field::spread_samples(core->mesh, core->topology(), areas, 6, *core->memory).share)
     sum += share;
   EXPECT_EQ(sum, 1);
 }
@@ -270,11 +272,11 @@ TEST(SpreadSamples, are_as_many_as_asked_for_around_a_vertex_of_ten_thousand_edg
     fan.triangles.insert(fan.triangles.end(), {0, i + 1, (i + 1) % around + 1});
   }
   const auto core = hf_test::make_core(fan);
-  const auto samples = hf_inner::spread_samples(core->mesh, core->topology(), core->areas, 8, *core->memory);
+  const auto samples = hf_inner::field::spread_samples(core->mesh, core->topology(), core->areas, 8, *core->memory);
   double sum = 0;
   for (const double share : samples.share) sum += share;
   EXPECT_NEAR(sum, 1, 1e-12);
-  EXPECT_EQ(std::count(samples.vertex.begin(), samples.vertex.end(), hf_inner::Mesh::none), 0);
+  EXPECT_EQ(std::count(samples.vertex.begin(), samples.vertex.end(), hf_inner::mesh::Mesh::none), 0);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 
 namespace {
 
-using hf_inner::Isolines;
+using hf_inner::field::Isolines;
 using hf_test::PlainMesh;
 
 hf_inner::Memory& memory() {
@@ -41,8 +41,8 @@ struct Surface {
       if (start[i + 1] - start[i] == 1) border.insert({core->topology().first(e), core->topology().second(e)});
     }
   }
-  static hf_inner::CoreOptions without_factor() {
-    hf_inner::CoreOptions options;
+  static hf_inner::surface::CoreOptions without_factor() {
+    hf_inner::surface::CoreOptions options;
     options.need_factor = false;
     return options;
   }
@@ -87,13 +87,13 @@ struct Surface {
   }
 
   PlainMesh plain;
-  std::shared_ptr<const hf_inner::Core> core;
+  std::shared_ptr<const hf_inner::surface::Core> core;
   std::set<std::array<int, 3>> triangles;  // corners, ascending
   std::set<std::pair<int, int>> edges, border;
 };
 
 Isolines trace(const Surface& s, const std::vector<double>& field, const std::vector<double>& levels) {
-  return hf_inner::trace_isolines(s.core->mesh, s.core->topology(), field, levels, memory());
+  return hf_inner::field::trace_isolines(s.core->mesh, s.core->topology(), field, levels, memory());
 }
 
 // Every line is closed or ends at borders, steps inside triangles, and nothing is missing. Returns the lines seen.
@@ -244,10 +244,10 @@ TEST(Isolines, come_in_the_order_of_the_list_and_repeats_give_repeats) {
 
 // ---- levels
 
-std::vector<double> space(const Surface& s, const std::vector<double>& u, hf_inner::LevelSpacing spacing,
+std::vector<double> space(const Surface& s, const std::vector<double>& u, hf_inner::field::LevelSpacing spacing,
                           std::size_t count) {
   std::vector<double> levels(count);
-  hf_inner::space_levels(s.core->mesh, u, spacing, levels, memory());
+  hf_inner::field::space_levels(s.core->mesh, u, spacing, levels, memory());
   return levels;
 }
 
@@ -273,7 +273,7 @@ TEST(Levels, of_equal_area_cut_the_surface_into_strips_of_the_same_area) {
   for (std::uint32_t seed = 0; seed < 3; ++seed) {
     const auto u = seed ? hf_test::random_field(s.plain, seed)
                         : hf_test::field_of(s.plain, [](double x, double y, double) { return std::exp(x) + y; });
-    const auto levels = space(s, u, hf_inner::LevelSpacing::area, 9);
+    const auto levels = space(s, u, hf_inner::field::LevelSpacing::area, 9);
     const double whole = area_below(s, u, 1e300);
     for (std::size_t k = 0; k < 9; ++k)
       EXPECT_NEAR(area_below(s, u, levels[k]), whole * static_cast<double>(k + 1) / 10, 1e-12 * whole);
@@ -283,7 +283,7 @@ TEST(Levels, of_equal_area_cut_the_surface_into_strips_of_the_same_area) {
 TEST(Levels, of_equal_value_divide_the_range) {
   const Surface s(hf_test::grid(5, 5));
   const auto u = hf_test::field_of(s.plain, [](double x, double, double) { return 3 + 2 * x; });
-  const auto levels = space(s, u, hf_inner::LevelSpacing::value, 4);
+  const auto levels = space(s, u, hf_inner::field::LevelSpacing::value, 4);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(levels[k], 3 + 2 * static_cast<double>(k + 1), 1e-13);
 }
 
@@ -292,7 +292,7 @@ TEST(Levels, of_equal_length_are_evenly_spaced_rings_whatever_the_values) {
   for (const double power : {1.0, 4.0, 0.25}) {
     const auto u =
         hf_test::field_of(tube.plain, [&](double, double, double z) { return std::pow(z / 5 + 1e-3, power); });
-    const auto levels = space(tube, u, hf_inner::LevelSpacing::length, 9);
+    const auto levels = space(tube, u, hf_inner::field::LevelSpacing::length, 9);
     // the field is linear between the rings: compare with the height at which it takes the level
     for (std::size_t k = 0; k < 9; ++k) {
       std::uint32_t ring = 0;
@@ -304,7 +304,7 @@ TEST(Levels, of_equal_length_are_evenly_spaced_rings_whatever_the_values) {
   }
   const Surface ball(hf_test::from_shape(samples::sphere(40)));
   const auto height = hf_test::field_of(ball.plain, [](double, double y, double) { return y; });
-  const auto levels = space(ball, height, hf_inner::LevelSpacing::length, 7);
+  const auto levels = space(ball, height, hf_inner::field::LevelSpacing::length, 7);
   const double pi = 4 * std::atan(1.0);
   for (std::size_t k = 0; k < 7; ++k) EXPECT_NEAR(std::acos(-levels[k]), pi * static_cast<double>(k + 1) / 8, 0.01);
 }
@@ -313,7 +313,7 @@ TEST(Levels, of_equal_length_pass_over_what_is_constant) {
   // other components at the ends of the range, one of them with rounding errors on it: no lines there, no levels either
   const Surface tube(hf_test::tube(24, 60, 5));
   auto u = hf_test::field_of(tube.plain, [](double, double, double z) { return z; });
-  const auto alone = space(tube, u, hf_inner::LevelSpacing::length, 9);
+  const auto alone = space(tube, u, hf_inner::field::LevelSpacing::length, 9);
   PlainMesh more = tube.plain;
   for (const double value : {0.0, 5.0, 2.0}) {
     const PlainMesh ball = hf_test::from_shape(samples::sphere(30));
@@ -321,35 +321,36 @@ TEST(Levels, of_equal_length_pass_over_what_is_constant) {
     for (std::uint32_t v = 0; v < ball.vertex_count(); ++v)
       u.push_back(std::min(5.0, std::max(0.0, value + 1e-15 * (v % 7))));
   }
-  const auto levels = space(Surface(more), u, hf_inner::LevelSpacing::length, 9);
+  const auto levels = space(Surface(more), u, hf_inner::field::LevelSpacing::length, 9);
   for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(levels[k], alone[k], 0.02);
 }
 
 TEST(Levels, of_a_constant_field_are_refused) {
   const Surface s(hf_test::grid(3, 3));
-  EXPECT_THROW(space(s, std::vector<double>(16, 2.0), hf_inner::LevelSpacing::area, 3), hf_inner::Error);
-  EXPECT_THROW(space(s, std::vector<double>(16, std::nan("")), hf_inner::LevelSpacing::value, 3), hf_inner::Error);
+  EXPECT_THROW(space(s, std::vector<double>(16, 2.0), hf_inner::field::LevelSpacing::area, 3), hf_inner::Error);
+  EXPECT_THROW(space(s, std::vector<double>(16, std::nan("")), hf_inner::field::LevelSpacing::value, 3),
+               hf_inner::Error);
 }
 
 TEST(Isolines, PointsLieOnTheirEdgesInTheUnitOfTheMesh) {
   const Surface surface(hf_test::grid(4, 4, 3.0));
-  const hf_inner::Mesh& mesh = surface.core->mesh;
+  const hf_inner::mesh::Mesh& mesh = surface.core->mesh;
   const std::int32_t a = mesh.inner_of_given[1], b = mesh.inner_of_given[2];
   for (const double t : {0.0, 0.25, 1.0}) {
-    const hf_inner::Vec3 p = hf_inner::position_of(mesh, hf_inner::Isolines::Point{a, b, t});
+    const hf_inner::Vec3 p = hf_inner::field::position_of(mesh, hf_inner::field::Isolines::Point{a, b, t});
     EXPECT_NEAR(p.x, 3 + 3 * t, 1e-12);
     EXPECT_NEAR(p.y, 0, 1e-12);
   }
 }
 
 TEST(Certificate, ToleranceIsTheOneAskedForOrTheEngines) {
-  using hf_inner::certificate_tolerance;
+  using hf_inner::field::certificate_tolerance;
   const auto core = hf_test::make_core(hf_test::torus(12, 8));
-  const auto green = hf_inner::SiteSolver::make(core);
+  const auto green = hf_inner::solve::SiteSolver::make(core);
   EXPECT_EQ(certificate_tolerance(0.25, *green), 0.25);
   EXPECT_EQ(certificate_tolerance(0, *green), 1e-8);
 #ifdef HF_WITH_GPL
-  const auto updown = hf_inner::make_updown_solver(core, 1e8);
+  const auto updown = hf_inner::peers::make_updown_solver(core, 1e8);
   EXPECT_EQ(certificate_tolerance(0.25, *updown), 0.25);
   EXPECT_EQ(certificate_tolerance(0, *updown), 1e-5);
 #endif

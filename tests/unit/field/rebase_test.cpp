@@ -9,18 +9,18 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "engine/edited_core.h"
 #include "field/scalar_field.h"
 #include "support/engines.h"
 #include "support/meshes.h"
+#include "surface/edited_core.h"
 
 namespace {
 
 using hf_inner::at;
-std::vector<std::uint32_t> add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices) {
+std::vector<std::uint32_t> add(hf_inner::field::ScalarField& field, const std::vector<std::uint32_t>& vertices) {
   std::vector<double> values;
   for (const std::uint32_t v : vertices) values.push_back(std::sin(0.7 * v));
-  hf_inner::FieldEdit edit;
+  hf_inner::field::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
   edit.add_holds.values = values.data();
@@ -28,21 +28,21 @@ std::vector<std::uint32_t> add(hf_inner::ScalarField& field, const std::vector<s
   field.edit(edit, numbers.data());
   return numbers;
 }
-void remove(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& numbers) {
-  hf_inner::FieldEdit edit;
+void remove(hf_inner::field::ScalarField& field, const std::vector<std::uint32_t>& numbers) {
+  hf_inner::field::FieldEdit edit;
   edit.remove_count = static_cast<std::uint32_t>(numbers.size());
   edit.remove_sites = numbers.data();
   field.edit(edit, nullptr);
 }
-std::vector<double> solve(const hf_inner::ScalarField& field) {
+std::vector<double> solve(const hf_inner::field::ScalarField& field) {
   std::vector<double> u(at(field.core().size()));
   field.solve(u.data());
   return u;
 }
 // The field of the same sites by elimination.
-std::vector<double> oracle(const hf_inner::ScalarField& field) {
-  hf_inner::ScalarField fresh(field.shared_core(), 1, 100000,
-                              hf_test::make_engine(hf_test::EngineKind::refactor, field.shared_core()));
+std::vector<double> oracle(const hf_inner::field::ScalarField& field) {
+  hf_inner::field::ScalarField fresh(field.shared_core(), 1, 100000,
+                                     hf_test::make_engine(hf_test::EngineKind::refactor, field.shared_core()));
   std::vector<std::uint32_t> vertices;
   for (const auto& slot : field.sites().slots()) {
     if (slot.used()) vertices.push_back(slot.given_vertex);
@@ -63,18 +63,18 @@ std::vector<std::uint32_t> every(std::uint32_t begin, std::uint32_t end, std::ui
 
 TEST(Rebase, waits_for_the_next_edit_which_brings_it_up_to_date) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60));
-  hf_inner::ScalarField field(core, 1, 100000);
+  hf_inner::field::ScalarField field(core, 1, 100000);
   const auto first = add(field, every(0, 4800, 50));
   field.prepare_rebase();
   EXPECT_EQ(field.engine().counters().rebases, 0u);
   const std::vector<double> before = solve(field);
   remove(field, {first[3], first[9]});
-  const hf_inner::EngineCounters counters = field.engine().counters();
+  const hf_inner::solve::EngineCounters counters = field.engine().counters();
   EXPECT_EQ(counters.rebases, 1u);
   EXPECT_EQ(counters.factorisations, 2u);
   EXPECT_EQ(counters.eliminated, 94u);
   EXPECT_EQ(counters.dense_rows, 2u);  // the freed ones
-  EXPECT_EQ(counters.last_route, hf_inner::EditRoute::dense);
+  EXPECT_EQ(counters.last_route, hf_inner::solve::EditRoute::dense);
   EXPECT_LE(worst(solve(field), oracle(field)), 1e-11);
   add(field, {150, 450});  // the very vertices again
   EXPECT_LE(worst(solve(field), before), 1e-11);
@@ -82,7 +82,7 @@ TEST(Rebase, waits_for_the_next_edit_which_brings_it_up_to_date) {
 
 TEST(Rebase, takes_in_what_changed_between) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60));
-  hf_inner::ScalarField field(core, 1, 100000);
+  hf_inner::field::ScalarField field(core, 1, 100000);
   const auto first = add(field, every(0, 4800, 50));
   std::atomic<bool> done{false};
   std::thread other([&] {
@@ -126,8 +126,8 @@ TEST(Rebase, of_a_surface_that_was_left_meanwhile_is_dropped) {
   const auto plain = hf_test::make_core(hf_test::torus(80, 60), 1, {}, memory);
   auto stiffness = std::make_shared<hf_inner::Vector<double>>(at(plain->size()), 1.0, memory.get());
   for (std::size_t v = 400; v < 450; ++v) (*stiffness)[v] = 50;
-  const auto edited = hf_inner::edit_core(plain, {stiffness});
-  hf_inner::ScalarField field(plain, 1, 100000);
+  const auto edited = hf_inner::surface::edit_core(plain, {stiffness});
+  hf_inner::field::ScalarField field(plain, 1, 100000);
   add(field, every(0, 4800, 50));
   interrupt.meanwhile = [&] { field.move_to(edited); };
   interrupt.bytes =
@@ -141,7 +141,7 @@ TEST(Rebase, of_a_surface_that_was_left_meanwhile_is_dropped) {
 
 TEST(Rebase, says_what_it_cannot_do) {
   const auto core = hf_test::make_core(hf_test::torus(20, 14));
-  const auto code_of = [](hf_inner::ScalarField& field) {
+  const auto code_of = [](hf_inner::field::ScalarField& field) {
     try {
       field.prepare_rebase();
     } catch (const hf_inner::Error& error) {
@@ -149,7 +149,7 @@ TEST(Rebase, says_what_it_cannot_do) {
     }
     return static_cast<hf_result>(HF_OK);
   };
-  hf_inner::ScalarField green(core, 1, 100),
+  hf_inner::field::ScalarField green(core, 1, 100),
       refactor(core, 1, 100, hf_test::make_engine(hf_test::EngineKind::refactor, core));
   EXPECT_EQ(code_of(green), HF_ERROR_EMPTY);
   EXPECT_EQ(code_of(refactor), HF_ERROR_UNSUPPORTED);
@@ -157,18 +157,18 @@ TEST(Rebase, says_what_it_cannot_do) {
 
 TEST(Decisions, are_counted_with_what_the_cost_model_said) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60));
-  hf_inner::ScalarField field(core, 1, 100000);
-  EXPECT_EQ(field.engine().counters().last_route, hf_inner::EditRoute::none);
+  hf_inner::field::ScalarField field(core, 1, 100000);
+  EXPECT_EQ(field.engine().counters().last_route, hf_inner::solve::EditRoute::none);
   const auto few = add(field, {5, 701, 2001});
-  hf_inner::EngineCounters counters = field.engine().counters();
-  EXPECT_EQ(counters.last_route, hf_inner::EditRoute::dense);
+  hf_inner::solve::EngineCounters counters = field.engine().counters();
+  EXPECT_EQ(counters.last_route, hf_inner::solve::EditRoute::dense);
   EXPECT_EQ(counters.dense_edits, 1u);
   EXPECT_EQ(counters.dense_rows, 3u);
   EXPECT_GT(counters.dense_ms, 0);
   EXPECT_GT(counters.rebase_ms, counters.dense_ms);
   add(field, every(6, 4800, 2));
   counters = field.engine().counters();
-  EXPECT_EQ(counters.last_route, hf_inner::EditRoute::rebase);
+  EXPECT_EQ(counters.last_route, hf_inner::solve::EditRoute::rebase);
   EXPECT_LT(counters.rebase_ms, counters.dense_ms);
   EXPECT_EQ(counters.rebases, 1u);
   EXPECT_GT(counters.eliminated, 2000u);
@@ -178,7 +178,7 @@ TEST(Decisions, are_counted_with_what_the_cost_model_said) {
 
 TEST(PartialSolve, has_the_bits_of_the_whole_field_and_solves_no_path) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60), 2);
-  hf_inner::ScalarField field(core, 1, 100000);
+  hf_inner::field::ScalarField field(core, 1, 100000);
   add(field, every(0, 4800, 37));
   const std::vector<double> whole = solve(field);
   const std::uint32_t paths = field.engine().counters().path_solves;

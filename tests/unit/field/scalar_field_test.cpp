@@ -9,21 +9,22 @@
 
 namespace {
 
-std::vector<double> field_of(const hf_inner::ScalarField& field) {
+std::vector<double> field_of(const hf_inner::field::ScalarField& field) {
   std::vector<double> u(static_cast<std::size_t>(field.core().size() * field.sites().channels()));
   field.solve(u.data());
   return u;
 }
 
-hf_inner::FieldEdit adding(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
-  hf_inner::FieldEdit edit;
+hf_inner::field::FieldEdit adding(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values) {
+  hf_inner::field::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
   edit.add_holds.values = values.data();
   return edit;
 }
 
-hf_result code_of(hf_inner::ScalarField& field, const hf_inner::FieldEdit& edit, std::uint32_t* index = nullptr) {
+hf_result code_of(hf_inner::field::ScalarField& field, const hf_inner::field::FieldEdit& edit,
+                  std::uint32_t* index = nullptr) {
   try {
     field.edit(edit, nullptr);
   } catch (const hf_inner::Error& error) {
@@ -35,8 +36,8 @@ hf_result code_of(hf_inner::ScalarField& field, const hf_inner::FieldEdit& edit,
 
 class ScalarFieldTest : public testing::TestWithParam<hf_test::EngineKind> {
  protected:
-  std::shared_ptr<const hf_inner::Core> core = hf_test::make_core(hf_test::torus(24, 18));
-  hf_inner::ScalarField field{core, 1, 1000, hf_test::make_engine(GetParam(), core)};
+  std::shared_ptr<const hf_inner::surface::Core> core = hf_test::make_core(hf_test::torus(24, 18));
+  hf_inner::field::ScalarField field{core, 1, 1000, hf_test::make_engine(GetParam(), core)};
 };
 
 TEST_P(ScalarFieldTest, a_failing_batch_changes_nothing) {
@@ -51,7 +52,7 @@ TEST_P(ScalarFieldTest, a_failing_batch_changes_nothing) {
   EXPECT_EQ(index, 1u);
   EXPECT_EQ(code_of(field, adding({3}, {std::nan("")})), HF_ERROR_NON_FINITE);
   const std::uint32_t absent[] = {0, 9};
-  hf_inner::FieldEdit edit;
+  hf_inner::field::FieldEdit edit;
   edit.remove_count = 2;
   edit.remove_sites = absent;
   EXPECT_EQ(code_of(field, edit, &index), HF_ERROR_NOT_FOUND);
@@ -64,7 +65,7 @@ TEST_P(ScalarFieldTest, sites_may_swap_places) {
   field.edit(adding({1, 50}, {0, 1}), nullptr);
   const auto before = field_of(field);
   const std::uint32_t both[] = {0, 1}, to[] = {50, 1};
-  hf_inner::FieldEdit edit;
+  hf_inner::field::FieldEdit edit;
   edit.move_count = 2;
   edit.move_sites = both;
   edit.move_to.count = 2;
@@ -79,7 +80,7 @@ TEST_P(ScalarFieldTest, new_values_factorise_nothing_and_solve_no_path) {
   const auto before = field.engine().counters();
   const std::uint32_t site[] = {1};
   const double value[] = {4};
-  hf_inner::FieldEdit edit;
+  hf_inner::field::FieldEdit edit;
   edit.set_count = 1;
   edit.set_sites = site;
   edit.set_values = value;
@@ -92,7 +93,7 @@ TEST_P(ScalarFieldTest, new_values_factorise_nothing_and_solve_no_path) {
 TEST_P(ScalarFieldTest, a_copy_goes_its_own_way) {
   field.edit(adding({1, 50}, {0, 1}), nullptr);
   const auto before = field_of(field);
-  hf_inner::ScalarField copy(field);
+  hf_inner::field::ScalarField copy(field);
   copy.edit(adding({90}, {7}), nullptr);
   EXPECT_EQ(before, field_of(field));
   EXPECT_NEAR(field_of(copy)[90], 7, 1e-5);

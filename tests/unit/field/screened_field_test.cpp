@@ -17,13 +17,13 @@ namespace {
 
 using hf_inner::at;
 using hf_inner::Index;
-using hf_inner::ScalarField;
-using hf_inner::Site;
+using hf_inner::field::ScalarField;
+using hf_inner::solve::Site;
 
 constexpr int channels = 2;
 
 struct Scene {
-  std::shared_ptr<const hf_inner::Core> core;
+  std::shared_ptr<const hf_inner::surface::Core> core;
   ScalarField field;
   std::vector<double> strength, target;
   Scene() : core(hf_test::make_core(mesh())), field(core, channels, 100000) {
@@ -47,7 +47,7 @@ struct Scene {
       values.push_back(std::sin(v));
       values.push_back(std::cos(v));
     }
-    hf_inner::FieldEdit edit;
+    hf_inner::field::FieldEdit edit;
     std::vector<std::uint32_t> numbers(vertices.size());
     edit.add.count = static_cast<std::uint32_t>(vertices.size());
     edit.add.vertices = vertices.data();

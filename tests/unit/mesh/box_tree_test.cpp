@@ -10,10 +10,10 @@
 namespace {
 
 using hf_inner::at;
-using hf_inner::BoxTree;
 using hf_inner::Index;
-using hf_inner::ItemBox;
 using hf_inner::Vec3;
+using hf_inner::mesh::BoxTree;
+using hf_inner::mesh::ItemBox;
 
 TEST(BoxTree, FindsTheNearestPoint) {
   hf_inner::Memory memory;

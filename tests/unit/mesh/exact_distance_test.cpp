@@ -23,26 +23,28 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // A mesh that keeps the numbers of its vertices, with its tables.
 struct Shape {
   explicit Shape(const PlainMesh& plain)
-      : mesh(make(plain, memory)), topology(hf_inner::Topology::make(mesh, memory)), sides(mesh, topology, memory) {}
-  static hf_inner::Mesh make(const PlainMesh& plain, hf_inner::Memory& memory) {
-    hf_inner::MeshInput input;
+      : mesh(make(plain, memory)),
+        topology(hf_inner::mesh::Topology::make(mesh, memory)),
+        sides(mesh, topology, memory) {}
+  static hf_inner::mesh::Mesh make(const PlainMesh& plain, hf_inner::Memory& memory) {
+    hf_inner::mesh::MeshInput input;
     input.vertex_count = plain.vertex_count();
     input.triangle_count = plain.triangle_count();
     input.positions = hf_inner::ConstRows(plain.positions.data(), 3 * sizeof(double));
     input.triangles = hf_inner::IndexRows(plain.triangles.data(), 3);
-    input.weld = hf_inner::Weld::none;
-    return hf_inner::Mesh::make(input, memory);
+    input.weld = hf_inner::mesh::Weld::none;
+    return hf_inner::mesh::Mesh::make(input, memory);
   }
   // By vertex as given, in the unit of the mesh; infinite for isolated vertices.
   std::vector<double> distance(const std::vector<Index>& given) {
     std::vector<Index> sources;
     for (const Index s : given) sources.push_back(mesh.inner_of_given[at(s)]);
-    return by_given(hf_inner::exact_distance(sides, sources, memory).distance);
+    return by_given(hf_inner::mesh::exact_distance(sides, sources, memory).distance);
   }
   std::vector<double> front(Index source) {
     hf_inner::Vector<double> d(mesh.positions.size(), &memory);
     const Index s = mesh.inner_of_given[at(source)];
-    hf_inner::FrontDistance(mesh, topology, memory).distance(hf_inner::Span<const Index>(&s, 1), d.data());
+    hf_inner::mesh::FrontDistance(mesh, topology, memory).distance(hf_inner::Span<const Index>(&s, 1), d.data());
     return by_given(d);
   }
   std::vector<double> by_given(const hf_inner::Vector<double>& d) const {
@@ -53,9 +55,9 @@ struct Shape {
     return out;
   }
   hf_inner::Memory memory;
-  hf_inner::Mesh mesh;
-  hf_inner::Topology topology;
-  hf_inner::TriangleSides sides;
+  hf_inner::mesh::Mesh mesh;
+  hf_inner::mesh::Topology topology;
+  hf_inner::mesh::TriangleSides sides;
 };
 
 struct Point2 {
@@ -343,7 +345,7 @@ TEST(ExactDistance, is_cancelled_with_nothing_left_allocated) {
 }
 
 // The place of a point of a path; ends inside a triangle are given.
-hf_inner::Vec3 place_of(const hf_inner::Mesh& mesh, const hf_inner::PathPoint& p, hf_inner::Vec3 inside) {
+hf_inner::Vec3 place_of(const hf_inner::mesh::Mesh& mesh, const hf_inner::mesh::PathPoint& p, hf_inner::Vec3 inside) {
   if (p.a < 0) return inside;
   return (1 - p.t) * mesh.positions[at(p.a)] + p.t * mesh.positions[at(p.b)];
 }
@@ -354,7 +356,7 @@ struct RandomPoint {
   hf_inner::Vec3 place;
 };
 
-RandomPoint random_point(const hf_inner::Mesh& mesh, std::mt19937& random, int kind) {
+RandomPoint random_point(const hf_inner::mesh::Mesh& mesh, std::mt19937& random, int kind) {
   RandomPoint p;
   const Index t = static_cast<Index>(random() % static_cast<unsigned>(mesh.triangle_count()));
   std::copy_n(mesh.triangle(t), 3, p.corners);
@@ -381,11 +383,11 @@ TEST(ShortestPath, has_the_length_of_the_distance_and_stays_on_the_surface) {
     for (int round = 0; round < 45; ++round) {
       const RandomPoint a = random_point(shape.mesh, random, round % 3),
                         b = random_point(shape.mesh, random, round / 3 % 3);
-      const hf_inner::GeodesicPoint from(shape.sides, a.corners, a.weights, shape.memory),
+      const hf_inner::mesh::GeodesicPoint from(shape.sides, a.corners, a.weights, shape.memory),
           to(shape.sides, b.corners, b.weights, shape.memory);
       ASSERT_TRUE(from.found() && to.found());
-      const auto path = hf_inner::shortest_path(shape.sides, from, to, shape.memory);
-      const auto back = hf_inner::shortest_path(shape.sides, to, from, shape.memory);
+      const auto path = hf_inner::mesh::shortest_path(shape.sides, from, to, shape.memory);
+      const auto back = hf_inner::mesh::shortest_path(shape.sides, to, from, shape.memory);
       EXPECT_NEAR(path.length, back.length, 1e-10) << name << " " << round;
       if (path.points.empty()) {
         EXPECT_TRUE(back.points.empty());
@@ -410,10 +412,11 @@ TEST(ShortestPath, has_the_length_of_the_distance_and_stays_on_the_surface) {
       several += path.points.size() > 3;
       EXPECT_NEAR(sum, path.length, 1e-9) << name << " " << round << ", " << path.points.size() << " points";
       if (from.vertex >= 0 && to.vertex >= 0) {
-        EXPECT_NEAR(path.length,
-                    hf_inner::exact_distance(shape.sides, hf_inner::Span<const Index>(&from.vertex, 1), shape.memory)
-                        .distance[at(to.vertex)],
-                    1e-12);
+        EXPECT_NEAR(
+            path.length,
+            hf_inner::mesh::exact_distance(shape.sides, hf_inner::Span<const Index>(&from.vertex, 1), shape.memory)
+                .distance[at(to.vertex)],
+            1e-12);
       }
     }
   }
@@ -428,11 +431,11 @@ TEST(LogMap, of_a_convex_plane_is_the_plane_itself) {
   Shape shape(plain);
   for (int round = 0; round < 30; ++round) {
     const RandomPoint p = random_point(shape.mesh, random, round % 3);
-    const hf_inner::GeodesicPoint from(shape.sides, p.corners, p.weights, shape.memory);
-    hf_inner::ExactTask task;
+    const hf_inner::mesh::GeodesicPoint from(shape.sides, p.corners, p.weights, shape.memory);
+    hf_inner::mesh::ExactTask task;
     task.from = &from;
     task.directions = true;
-    const auto found = hf_inner::exact_distance(shape.sides, task, shape.memory);
+    const auto found = hf_inner::mesh::exact_distance(shape.sides, task, shape.memory);
     EXPECT_LE(found.fan_angle, 6.28318530717959);
     std::vector<Point2> map;
     for (std::size_t v = 0; v < found.distance.size(); ++v)
@@ -454,11 +457,11 @@ TEST(LogMap, has_the_directions_of_the_shortest_paths) {
   Shape shape(hf_test::torus(30, 24, 0.3));
   for (int round = 0; round < 6; ++round) {
     const RandomPoint p = random_point(shape.mesh, random, 2);
-    const hf_inner::GeodesicPoint from(shape.sides, p.corners, p.weights, shape.memory);
-    hf_inner::ExactTask task;
+    const hf_inner::mesh::GeodesicPoint from(shape.sides, p.corners, p.weights, shape.memory);
+    hf_inner::mesh::ExactTask task;
     task.from = &from;
     task.directions = true;
-    const auto found = hf_inner::exact_distance(shape.sides, task, shape.memory);
+    const auto found = hf_inner::mesh::exact_distance(shape.sides, task, shape.memory);
     const Index* corner = shape.mesh.triangle(found.first_triangle);
     const hf_inner::Vec3 o = shape.mesh.positions[at(corner[0])];
     const hf_inner::Vec3 x = unit_vector(shape.mesh.positions[at(corner[1])] - o);
@@ -466,8 +469,8 @@ TEST(LogMap, has_the_directions_of_the_shortest_paths) {
     for (Index v = 0; v < shape.mesh.vertex_count(); v += 7) {
       const double one[3] = {1, 0, 0};
       const Index at_vertex[3] = {v, -1, -1};
-      const hf_inner::GeodesicPoint to(shape.sides, at_vertex, one, shape.memory);
-      const auto path = hf_inner::shortest_path(shape.sides, from, to, shape.memory);
+      const hf_inner::mesh::GeodesicPoint to(shape.sides, at_vertex, one, shape.memory);
+      const auto path = hf_inner::mesh::shortest_path(shape.sides, from, to, shape.memory);
       const hf_inner::Vec3 first = place_of(shape.mesh, path.points[1], p.place) - p.place;
       EXPECT_NEAR(std::cos(found.direction[at(v)]), dot(first, x) / norm(first), 1e-7) << v;
       EXPECT_NEAR(std::sin(found.direction[at(v)]), dot(first, y) / norm(first), 1e-7) << v;

@@ -17,6 +17,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::mesh;
 using hf_test::PlainMesh;
 
 // A mesh with its tables. Lengths are in box diagonals.
@@ -72,7 +73,7 @@ struct Shape {
     EXPECT_LT(norm(place(path.points.size() - 1) - to.position(mesh)), 1e-12) << name;
     return passed;
   }
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   const Mesh& mesh;
   const Topology& topology;
   mutable Memory memory;

@@ -23,7 +23,7 @@ using Triangles = std::vector<std::vector<int>>;
 // The triangles of a face as sets of vertex numbers, in one order.
 Triangles cut_of(std::vector<std::int32_t> vertices, const std::vector<Vec3>& positions, bool* second = nullptr) {
   hf_inner::Memory memory;
-  hf_inner::FaceCutter cutter(memory);
+  hf_inner::mesh::FaceCutter cutter(memory);
   std::vector<Vec3> points;
   for (const std::int32_t v : vertices) points.push_back(positions[static_cast<std::size_t>(v)]);
   cutter.cut(vertices, points);
@@ -180,7 +180,7 @@ TEST(CornerTree, tries_corners_on_the_sides_of_a_triangle_wherever_rounding_puts
     for (std::int32_t i = 0; i < count; ++i) points.push_back(from + (i / (count - 1.0)) * along);
     points.push_back(from + 0.5 * along + aside);
     hf_inner::Memory memory;
-    hf_inner::CornerTree tree(memory);
+    hf_inner::mesh::CornerTree tree(memory);
     tree.make(points, normal);
     for (std::int32_t i = 0; i <= count; ++i) tree.put_in(i);
     for (std::int32_t i = 0; i <= count; ++i)
@@ -217,13 +217,13 @@ TEST(FacePoint, is_the_middle_of_a_rectangle_and_its_weights_give_it) {
   hf_inner::Memory memory;
   hf_inner::Vector<double> weights(&memory);
   const Vec3 rectangle[4] = {{1, 1, 0}, {5, 1, 0}, {5, 2, 0}, {1, 2, 0}};
-  Vec3 p = hf_inner::face_point({rectangle, 4}, weights);
+  Vec3 p = hf_inner::mesh::face_point({rectangle, 4}, weights);
   EXPECT_NEAR(p.x, 3, 1e-13);
   EXPECT_NEAR(p.y, 1.5, 1e-13);
   for (const double w : weights) EXPECT_NEAR(w, 0.25, 1e-13);
   for (unsigned seed = 0; seed < 50; ++seed) {
     const std::vector<Vec3> points = random_polygon(3 + seed % 8, seed, 0.5);
-    p = hf_inner::face_point(points, weights);
+    p = hf_inner::mesh::face_point(points, weights);
     double sum = 0, best = 0;
     Vec3 mean;
     const auto squares = [&](Vec3 x) {
@@ -265,15 +265,15 @@ struct Sheet {
       }
     }
   }
-  hf_inner::Mesh make(hf_inner::Memory& memory) const {
-    hf_inner::MeshInput input;
+  hf_inner::mesh::Mesh make(hf_inner::Memory& memory) const {
+    hf_inner::mesh::MeshInput input;
     input.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
     input.positions = hf_inner::ConstRows(positions.data(), 3 * sizeof(double));
     input.faces.face_count = static_cast<std::uint32_t>(sizes.size());
     input.faces.corner_count = static_cast<std::uint32_t>(corners.size());
     input.faces.sizes = hf_inner::IndexRows(sizes.data(), 1);
     input.faces.corners = hf_inner::IndexRows(corners.data(), 1);
-    return hf_inner::Mesh::make(input, memory);
+    return hf_inner::mesh::Mesh::make(input, memory);
   }
   std::vector<double> positions;
   std::vector<std::uint32_t> corners, sizes;
@@ -305,15 +305,15 @@ void expect_laplacian(const hf_inner::SymmetricMatrix& k, bool no_negative_weigh
 
 TEST(FaceOperator, is_symmetric_and_has_no_negative_weight_by_default) {
   hf_inner::Memory memory;
-  using hf_inner::OperatorKind;
+  using hf_inner::mesh::OperatorKind;
   for (const double length : {0.3, 1.0, 5.0}) {
     for (const double bend : {0.0, 0.4}) {
-      const hf_inner::Mesh mesh = Sheet(6, 5, length, bend).make(memory);
-      const auto topology = hf_inner::Topology::make(mesh, memory);
-      const auto weights = hf_inner::edge_weights(mesh, topology, OperatorKind::cotangent, memory);
+      const hf_inner::mesh::Mesh mesh = Sheet(6, 5, length, bend).make(memory);
+      const auto topology = hf_inner::mesh::Topology::make(mesh, memory);
+      const auto weights = hf_inner::mesh::edge_weights(mesh, topology, OperatorKind::cotangent, memory);
       for (const OperatorKind kind :
            {OperatorKind::intrinsic_delaunay, OperatorKind::cotangent, OperatorKind::clamped, OperatorKind::uniform})
-        expect_laplacian(hf_inner::face_operator(mesh, topology, weights, kind, false, memory).laplacian,
+        expect_laplacian(hf_inner::mesh::face_operator(mesh, topology, weights, kind, false, memory).laplacian,
                          kind != OperatorKind::cotangent);
     }
   }
@@ -321,8 +321,8 @@ TEST(FaceOperator, is_symmetric_and_has_no_negative_weight_by_default) {
 
 TEST(FaceOperator, of_long_quads_the_polygon_laplacian_has_negative_weights) {
   hf_inner::Memory memory;
-  const hf_inner::Mesh mesh = Sheet(6, 5, 5.0, 0.0).make(memory);
-  const auto k = hf_inner::polygon_laplacian(mesh, memory);
+  const hf_inner::mesh::Mesh mesh = Sheet(6, 5, 5.0, 0.0).make(memory);
+  const auto k = hf_inner::mesh::polygon_laplacian(mesh, memory);
   bool negative = false;
   for (std::int32_t v = 0; v < k.size(); ++v) {
     for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)];
@@ -337,12 +337,12 @@ TEST(FaceOperator, of_bent_squares_weighs_both_diagonals_alike) {
   hf_inner::Memory memory;
   Sheet sheet(2, 2, 1.0, 0.0);
   sheet.positions = {0, 0, .2, 1, 0, 0, 2, 0, .2, 0, 1, 0, 1, 1, .2, 2, 1, 0, 0, 2, .2, 1, 2, 0, 2, 2, .2};
-  const hf_inner::Mesh mesh = sheet.make(memory);
-  const auto topology = hf_inner::Topology::make(mesh, memory);
-  const auto weights = hf_inner::edge_weights(mesh, topology, hf_inner::OperatorKind::cotangent, memory);
-  const auto k =
-      hf_inner::face_operator(mesh, topology, weights, hf_inner::OperatorKind::intrinsic_delaunay, false, memory)
-          .laplacian;
+  const hf_inner::mesh::Mesh mesh = sheet.make(memory);
+  const auto topology = hf_inner::mesh::Topology::make(mesh, memory);
+  const auto weights = hf_inner::mesh::edge_weights(mesh, topology, hf_inner::mesh::OperatorKind::cotangent, memory);
+  const auto k = hf_inner::mesh::face_operator(mesh, topology, weights,
+                                               hf_inner::mesh::OperatorKind::intrinsic_delaunay, false, memory)
+                     .laplacian;
   // the middle vertex sees the four corners alike and the four others alike
   std::vector<double> row(9, 0.0);
   for (std::int32_t i = k.column_start[4]; i < k.column_start[5]; ++i)
@@ -360,12 +360,12 @@ Dense dense(const hf_inner::SymmetricMatrix& k) {
   }
   return out;
 }
-Dense operator_of(const hf_inner::Mesh& mesh, hf_inner::Memory& memory) {
-  const auto topology = hf_inner::Topology::make(mesh, memory);
-  const auto weights = hf_inner::edge_weights(mesh, topology, hf_inner::OperatorKind::cotangent, memory);
-  return dense(
-      hf_inner::face_operator(mesh, topology, weights, hf_inner::OperatorKind::intrinsic_delaunay, false, memory)
-          .laplacian);
+Dense operator_of(const hf_inner::mesh::Mesh& mesh, hf_inner::Memory& memory) {
+  const auto topology = hf_inner::mesh::Topology::make(mesh, memory);
+  const auto weights = hf_inner::mesh::edge_weights(mesh, topology, hf_inner::mesh::OperatorKind::cotangent, memory);
+  return dense(hf_inner::mesh::face_operator(mesh, topology, weights, hf_inner::mesh::OperatorKind::intrinsic_delaunay,
+                                             false, memory)
+                   .laplacian);
 }
 
 // Weights 4 : 1 of neighbours and diagonals: exact for harmonic polynomials up to the seventh degree.
@@ -373,7 +373,7 @@ TEST(FaceOperator, of_flat_squares_has_the_nine_point_weights) {
   hf_inner::Memory memory;
   Sheet sheet(4, 4, 1.0, 0.0);
   for (std::size_t v = 0; v < 25; ++v) sheet.positions[3 * v] = static_cast<double>(v % 5);  // no skew
-  const hf_inner::Mesh mesh = sheet.make(memory);
+  const hf_inner::mesh::Mesh mesh = sheet.make(memory);
   const Dense k = operator_of(mesh, memory);
   const double unit = k[12][12];
   for (const std::size_t v : {7u, 11u, 13u, 17u}) EXPECT_NEAR(k[12][v] / unit, -0.2, 1e-12);
@@ -383,14 +383,14 @@ TEST(FaceOperator, of_flat_squares_has_the_nine_point_weights) {
 // Edges flip across the border of the sheet, so the operator itself need not be exact beside it.
 TEST(FaceCorrection, of_a_flat_mesh_keeps_linear_functions_and_lowers_weights_where_it_can) {
   hf_inner::Memory memory;
-  using hf_inner::OperatorKind;
+  using hf_inner::mesh::OperatorKind;
   for (const double length : {0.2, 1.0, 3.0, 9.0}) {
     const Sheet sheet(6, 6, length, 0.0);
-    const hf_inner::Mesh mesh = sheet.make(memory);
-    const auto topology = hf_inner::Topology::make(mesh, memory);
-    const auto weights = hf_inner::edge_weights(mesh, topology, OperatorKind::cotangent, memory);
-    const auto cut = hf_inner::delaunay_operator(mesh, topology, weights, false, memory).laplacian;
-    const Dense d = dense(cut), k = dense(hf_inner::corrected_by_polygons(mesh, cut, memory, nullptr));
+    const hf_inner::mesh::Mesh mesh = sheet.make(memory);
+    const auto topology = hf_inner::mesh::Topology::make(mesh, memory);
+    const auto weights = hf_inner::mesh::edge_weights(mesh, topology, OperatorKind::cotangent, memory);
+    const auto cut = hf_inner::mesh::delaunay_operator(mesh, topology, weights, false, memory).laplacian;
+    const Dense d = dense(cut), k = dense(hf_inner::mesh::corrected_by_polygons(mesh, cut, memory, nullptr));
     double most = 0;
     for (std::size_t v = 0; v < 49; ++v) {
       double x = 0, y = 0;
@@ -438,11 +438,11 @@ std::vector<Vec3> ngon(int n, double x, double y) {
 
 // The matrices before and after the correction, and the largest change of a weight.
 double corrected(const Sheet& sheet, Dense& before, Dense& after, hf_inner::Memory& memory) {
-  const hf_inner::Mesh mesh = sheet.make(memory);
-  const auto topology = hf_inner::Topology::make(mesh, memory);
-  const auto weights = hf_inner::edge_weights(mesh, topology, hf_inner::OperatorKind::cotangent, memory);
-  const auto cut = hf_inner::delaunay_operator(mesh, topology, weights, false, memory).laplacian;
-  const auto more = hf_inner::corrected_by_polygons(mesh, cut, memory, nullptr);
+  const hf_inner::mesh::Mesh mesh = sheet.make(memory);
+  const auto topology = hf_inner::mesh::Topology::make(mesh, memory);
+  const auto weights = hf_inner::mesh::edge_weights(mesh, topology, hf_inner::mesh::OperatorKind::cotangent, memory);
+  const auto cut = hf_inner::mesh::delaunay_operator(mesh, topology, weights, false, memory).laplacian;
+  const auto more = hf_inner::mesh::corrected_by_polygons(mesh, cut, memory, nullptr);
   expect_laplacian(more, true);
   before = dense(cut);
   after = dense(more);
@@ -488,11 +488,11 @@ TEST(FaceCorrection, leaves_large_faces_and_those_that_are_not_star_shaped) {
 TEST(PolygonLaplacian, of_a_face_of_many_corners_is_that_of_its_cut) {
   hf_inner::Memory memory;
   const Sheet sheet = sheet_of({ngon(80, 0, 0)});
-  const hf_inner::Mesh mesh = sheet.make(memory);
-  const auto k = hf_inner::polygon_laplacian(mesh, memory);
-  const auto topology = hf_inner::Topology::make(mesh, memory);
-  const auto weights = hf_inner::edge_weights(mesh, topology, hf_inner::OperatorKind::cotangent, memory);
-  const Dense whole = dense(k), cut = dense(hf_inner::laplacian(topology, weights, memory));
+  const hf_inner::mesh::Mesh mesh = sheet.make(memory);
+  const auto k = hf_inner::mesh::polygon_laplacian(mesh, memory);
+  const auto topology = hf_inner::mesh::Topology::make(mesh, memory);
+  const auto weights = hf_inner::mesh::edge_weights(mesh, topology, hf_inner::mesh::OperatorKind::cotangent, memory);
+  const Dense whole = dense(k), cut = dense(hf_inner::mesh::laplacian(topology, weights, memory));
   for (std::size_t v = 0; v < whole.size(); ++v) {
     for (std::size_t w = 0; w < whole.size(); ++w) EXPECT_NEAR(whole[v][w], cut[v][w], 1e-9 * cut[v][v]);
   }
@@ -503,13 +503,13 @@ TEST(FacePoint, of_corners_on_a_line_lies_on_it) {
   hf_inner::Memory memory;
   const std::vector<Vec3> points = {{0, 0, 0}, {1, 2, 3}, {3, 6, 9}, {2, 4, 6}};
   hf_inner::Vector<double> weights(&memory);
-  const Vec3 p = hf_inner::face_point(points, weights);
+  const Vec3 p = hf_inner::mesh::face_point(points, weights);
   EXPECT_NEAR(p.y, 2 * p.x, 1e-12);
   EXPECT_NEAR(p.z, 3 * p.x, 1e-12);
   double sum = 0;
   for (const double w : weights) sum += w;
   EXPECT_NEAR(sum, 1, 1e-12);
-  hf_inner::PolygonMatrix matrix(memory);
+  hf_inner::mesh::PolygonMatrix matrix(memory);
   matrix.make(points);
   EXPECT_FALSE(matrix.is_star);
 }
@@ -547,8 +547,8 @@ TEST(FaceCorrection, a_flat_quad_has_the_weights_of_its_delaunay_cut) {
     }
     const Vec3 turned[4] = {p[1], p[2], p[3], p[0]};
     double a[6], b[6];
-    hf_inner::quad_weights(p, a);
-    hf_inner::quad_weights(turned, b);
+    hf_inner::mesh::quad_weights(p, a);
+    hf_inner::mesh::quad_weights(turned, b);
     const std::size_t next[6] = {3, 4, 0, 5, 1, 2};
     for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(a[next[k]], b[k], 1e-12);
     EXPECT_GE(a[1], 0);

@@ -23,19 +23,19 @@ using hf_test::PlainMesh;
 struct Surface {
   explicit Surface(const PlainMesh& mesh, std::uint32_t threads = 1) : core(core_of(mesh, threads)) {
     triangulation.emplace(
-        hf_inner::IntrinsicTriangulation::make(core->mesh, core->topology(), *core->memory, core->jobs.get()));
+        hf_inner::mesh::IntrinsicTriangulation::make(core->mesh, core->topology(), *core->memory, core->jobs.get()));
   }
-  static std::shared_ptr<const hf_inner::Core> core_of(const PlainMesh& mesh, std::uint32_t threads) {
-    hf_inner::CoreOptions options;
-    options.operator_kind = hf_inner::OperatorKind::cotangent;
+  static std::shared_ptr<const hf_inner::surface::Core> core_of(const PlainMesh& mesh, std::uint32_t threads) {
+    hf_inner::surface::CoreOptions options;
+    options.operator_kind = hf_inner::mesh::OperatorKind::cotangent;
     options.need_factor = false;
     return hf_test::make_core(mesh, threads, options);
   }
   hf_inner::SymmetricMatrix laplacian() const {
     return triangulation->laplacian(core->size(), *core->memory, core->jobs.get());
   }
-  std::shared_ptr<const hf_inner::Core> core;
-  std::optional<hf_inner::IntrinsicTriangulation> triangulation;
+  std::shared_ptr<const hf_inner::surface::Core> core;
+  std::optional<hf_inner::mesh::IntrinsicTriangulation> triangulation;
 };
 
 using Entries = std::map<std::pair<int, int>, double>;
@@ -67,8 +67,8 @@ double energy(const hf_inner::SymmetricMatrix& k, const std::vector<double>& u) 
 
 TEST(Topology, sides_name_their_corner_and_direction) {
   for (const PlainMesh& mesh : {hf_test::turned_over(hf_test::grid(5, 4), 3), hf_test::book(3, 4, 3, 0.2)}) {
-    const std::shared_ptr<const hf_inner::Core> core = Surface::core_of(mesh, 1);
-    const hf_inner::Topology& topology = core->topology();
+    const std::shared_ptr<const hf_inner::surface::Core> core = Surface::core_of(mesh, 1);
+    const hf_inner::mesh::Topology& topology = core->topology();
     std::vector<int> seen(core->mesh.corners.size(), 0);
     for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
       for (std::int32_t i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
@@ -87,15 +87,15 @@ TEST(Topology, sides_name_their_corner_and_direction) {
 // Large enough that every thread puts a part of the sides into rows.
 TEST(Topology, is_the_same_on_several_threads_and_lists_neighbours_in_order) {
   const PlainMesh mesh = hf_test::torus(250, 200);
-  const std::shared_ptr<const hf_inner::Core> core = Surface::core_of(mesh, 1);
+  const std::shared_ptr<const hf_inner::surface::Core> core = Surface::core_of(mesh, 1);
   const auto make = [&](std::uint32_t threads) {
     hf_inner::JobRunner jobs(threads);
-    return hf_inner::Topology::make(core->mesh, *core->memory, &jobs);
+    return hf_inner::mesh::Topology::make(core->mesh, *core->memory, &jobs);
   };
-  const hf_inner::Topology one = make(1);
+  const hf_inner::mesh::Topology one = make(1);
   EXPECT_EQ(one.edge_count(), 3 * 50000);
   for (const std::uint32_t threads : {2u, 3u, 8u}) {
-    const hf_inner::Topology other = make(threads);
+    const hf_inner::mesh::Topology other = make(threads);
     EXPECT_EQ(one.edges, other.edges);
     EXPECT_EQ(one.edge_triangle_start, other.edge_triangle_start);
     EXPECT_EQ(one.edge_side, other.edge_side);
@@ -185,7 +185,7 @@ TEST(Intrinsic, flips_keep_the_area) {
     EXPECT_NEAR(area(), whole, thin * whole);
     if (name == "strip on a line") continue;  // its own triangles have no area
     double own = 0;
-    for (const double a : hf_inner::vertex_areas(surface.core->mesh, *surface.core->memory)) own += a;
+    for (const double a : hf_inner::mesh::vertex_areas(surface.core->mesh, *surface.core->memory)) own += a;
     EXPECT_NEAR(area(), own, thin * whole);
   }
 }
@@ -327,7 +327,7 @@ TEST(Intrinsic, laplacian_is_the_sum_over_its_edges_in_short_and_long_rows) {
   for (int i = 0; i < 6; ++i) {
     Surface surface(i < 2 ? hf_test::grid(9, 7, 1, 0.3) : cones(100, i < 4), 2);
     if (i % 2 == 0) surface.triangulation->flip_to_delaunay();
-    const hf_inner::IntrinsicTriangulation& t = *surface.triangulation;
+    const hf_inner::mesh::IntrinsicTriangulation& t = *surface.triangulation;
     Entries wanted;
     for (std::int32_t h = 0; h < 3 * t.face_count(); ++h) {
       const double w = t.share(h / 3) * std::max(0.0, t.edge_weight(h));
@@ -369,14 +369,14 @@ TEST(Intrinsic, stopped_early_it_still_has_no_negative_weight) {
 // The operator by patches and the one of the whole triangulation, and how many triangles the patches took.
 struct TwoWays {
   explicit TwoWays(const PlainMesh& mesh, std::uint32_t threads = 1) : surface(mesh, threads) {
-    const hf_inner::Core& core = *surface.core;
-    patches.emplace(
-        hf_inner::delaunay_operator(core.mesh, core.topology(), core.weights(), true, *core.memory, core.jobs.get()));
+    const hf_inner::surface::Core& core = *surface.core;
+    patches.emplace(hf_inner::mesh::delaunay_operator(core.mesh, core.topology(), core.weights(), true, *core.memory,
+                                                      core.jobs.get()));
     flips = surface.triangulation->flip_to_delaunay();
   }
   double share() const { return patches->patch_triangles / static_cast<double>(surface.core->mesh.triangle_count()); }
   Surface surface;
-  std::optional<hf_inner::DelaunayOperator> patches;
+  std::optional<hf_inner::mesh::DelaunayOperator> patches;
   std::uint64_t flips = 0;
 };
 
@@ -413,7 +413,7 @@ TEST(DelaunayPatches, give_the_operator_and_areas_of_the_whole_triangulation) {
   for (const auto& [name, mesh] : meshes) {
     SCOPED_TRACE(name);
     const TwoWays ways(mesh);
-    const hf_inner::Core& core = *ways.surface.core;
+    const hf_inner::surface::Core& core = *ways.surface.core;
     const Entries whole = entries_of(ways.surface.laplacian()), patched = entries_of(ways.patches->laplacian);
     double size = 0;
     for (const auto& entry : whole) size = std::max(size, std::fabs(entry.second));

@@ -37,9 +37,10 @@ std::vector<double> times(const hf_inner::SymmetricMatrix& k, const std::vector<
 }
 
 TEST(Laplacian, annihilates_constants_and_is_symmetric) {
-  for (const hf_inner::OperatorKind kind :
-       {hf_inner::OperatorKind::cotangent, hf_inner::OperatorKind::clamped, hf_inner::OperatorKind::uniform}) {
-    hf_inner::CoreOptions options;
+  for (const hf_inner::mesh::OperatorKind kind :
+       {hf_inner::mesh::OperatorKind::cotangent, hf_inner::mesh::OperatorKind::clamped,
+        hf_inner::mesh::OperatorKind::uniform}) {
+    hf_inner::surface::CoreOptions options;
     options.operator_kind = kind;
     const auto core = hf_test::make_core(hf_test::torus(20, 15, 0.3), 1, options);
     const hf_inner::SymmetricMatrix& k = core->laplacian;
@@ -80,7 +81,7 @@ TEST(Laplacian, energy_is_the_dirichlet_energy_of_a_linear_function) {
   const std::vector<double> ku = times(core->laplacian, u);
   double energy = 0, area = 0;
   for (std::size_t v = 0; v < u.size(); ++v) energy += u[v] * ku[v];
-  for (const double a : hf_inner::vertex_areas(core->mesh, *core->memory)) area += a;
+  for (const double a : hf_inner::mesh::vertex_areas(core->mesh, *core->memory)) area += a;
   EXPECT_NEAR(energy, 25 * area, 1e-12);
 }
 
@@ -96,8 +97,8 @@ TEST(Laplacian, stays_finite_and_factors_on_zero_area_triangles) {
 TEST(Laplacian, clamped_weights_are_positive_on_obtuse_meshes) {
   hf_test::PlainMesh mesh = hf_test::grid(20, 3);
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3) mesh.positions[i] += 3 * mesh.positions[i + 1];  // sheared
-  hf_inner::CoreOptions options;
-  options.operator_kind = hf_inner::OperatorKind::clamped;
+  hf_inner::surface::CoreOptions options;
+  options.operator_kind = hf_inner::mesh::OperatorKind::clamped;
   const auto core = hf_test::make_core(mesh, 1, options);
   EXPECT_GT(core->mesh.report.negative_edge_count, 0u);
   for (const double w : core->weights()) EXPECT_GT(w, 0);

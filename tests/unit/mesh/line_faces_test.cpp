@@ -39,8 +39,8 @@ hf_test::PlainMesh with(hf_test::PlainMesh mesh, const Triangle& more) {
   return mesh;
 }
 
-hf_inner::MeshInput input_of(const hf_test::PlainMesh& mesh) {
-  hf_inner::MeshInput input;
+hf_inner::mesh::MeshInput input_of(const hf_test::PlainMesh& mesh) {
+  hf_inner::mesh::MeshInput input;
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = mesh.triangle_count();
   input.positions = hf_inner::ConstRows(mesh.positions.data(), 3 * sizeof(double));
@@ -48,13 +48,13 @@ hf_inner::MeshInput input_of(const hf_test::PlainMesh& mesh) {
   return input;
 }
 
-hf_inner::Mesh made(const hf_test::PlainMesh& mesh, hf_inner::Memory& memory) {
-  return hf_inner::Mesh::make(input_of(mesh), memory);
+hf_inner::mesh::Mesh made(const hf_test::PlainMesh& mesh, hf_inner::Memory& memory) {
+  return hf_inner::mesh::Mesh::make(input_of(mesh), memory);
 }
 
 void expect_left_out(const hf_test::PlainMesh& plain, const hf_test::PlainMesh& more, std::uint32_t count) {
   hf_inner::Memory memory;
-  const hf_inner::Mesh without = made(plain, memory), mesh = made(more, memory);
+  const hf_inner::mesh::Mesh without = made(plain, memory), mesh = made(more, memory);
   EXPECT_EQ(std::vector<std::int32_t>(mesh.corners.begin(), mesh.corners.end()),
             std::vector<std::int32_t>(without.corners.begin(), without.corners.end()));
   EXPECT_EQ(mesh.report.collapsed_triangle_count, without.report.collapsed_triangle_count + count);
@@ -63,7 +63,7 @@ void expect_left_out(const hf_test::PlainMesh& plain, const hf_test::PlainMesh& 
   EXPECT_TRUE(mesh.doubled.empty());
   for (std::size_t t = 0; t < mesh.triangle_of_given.size(); ++t) {
     const bool usable = t < plain.triangles.size() / 3;
-    EXPECT_EQ(mesh.triangle_of_given[t], usable ? static_cast<std::int32_t>(t) : hf_inner::Mesh::none) << t;
+    EXPECT_EQ(mesh.triangle_of_given[t], usable ? static_cast<std::int32_t>(t) : hf_inner::mesh::Mesh::none) << t;
   }
 }
 
@@ -99,7 +99,7 @@ TEST(LineFaces, a_thin_border_with_vertices_of_its_own_stays) {
   hf_inner::Memory memory;
   hf_test::PlainMesh mesh = tube();
   mesh.positions.insert(mesh.positions.end(), {1, -1, 0});  // on the line of the vertices 0, 12, 24
-  const hf_inner::Mesh spiked = made(with(mesh, {0, around, mesh.vertex_count() - 1}), memory);
+  const hf_inner::mesh::Mesh spiked = made(with(mesh, {0, around, mesh.vertex_count() - 1}), memory);
   EXPECT_EQ(spiked.report.collapsed_triangle_count, 0u);
   EXPECT_EQ(spiked.report.isolated_vertex_count, 0u);
   hf_test::PlainMesh squeezed = hf_test::grid(6, 4);
@@ -143,13 +143,13 @@ struct Junction {
 TEST(LineFaces, a_sliver_that_shuts_a_junction_stays) {
   hf_inner::Memory memory;
   const Junction junction;
-  const hf_inner::Mesh shut = made(junction.shut, memory);
+  const hf_inner::mesh::Mesh shut = made(junction.shut, memory);
   EXPECT_EQ(shut.report.collapsed_triangle_count, 0u);
   EXPECT_EQ(shut.report.degenerate_triangle_count, 1u);
   EXPECT_EQ(shut.triangle_count(), made(junction.open, memory).triangle_count() + 1);
   // a flap over the sliver goes, and the sliver stays
   const std::uint32_t a = 3 * 7 + 2, far_left = 3 * 7;
-  const hf_inner::Mesh both = made(with(junction.shut, {far_left, a, a + 1}), memory);
+  const hf_inner::mesh::Mesh both = made(with(junction.shut, {far_left, a, a + 1}), memory);
   EXPECT_EQ(both.report.collapsed_triangle_count, 1u);
   EXPECT_EQ(both.triangle_count(), shut.triangle_count());
 }
@@ -162,7 +162,7 @@ TEST(LineFaces, a_polygon_on_a_line_is_left_out_if_it_joins_nothing) {
       corners.insert(corners.end(), face.begin(), face.end());
       sizes.push_back(static_cast<std::uint32_t>(face.size()));
     }
-    hf_inner::MeshInput input = input_of(mesh);
+    hf_inner::mesh::MeshInput input = input_of(mesh);
     input.triangles = {};
     input.triangle_count = 0;
     input.faces.sizes = hf_inner::IndexRows(sizes.data(), 1);
@@ -170,7 +170,7 @@ TEST(LineFaces, a_polygon_on_a_line_is_left_out_if_it_joins_nothing) {
     input.faces.face_count = static_cast<std::uint32_t>(sizes.size());
     input.faces.corner_count = static_cast<std::uint32_t>(corners.size());
     hf_inner::Memory memory;
-    const hf_inner::Mesh made = hf_inner::Mesh::make(input, memory);
+    const hf_inner::mesh::Mesh made = hf_inner::mesh::Mesh::make(input, memory);
     EXPECT_EQ(made.triangle_of_given.size(), sizes.size());
     EXPECT_EQ(made.faces.count(), 72 + static_cast<std::int32_t>(more.size()) -
                                       static_cast<std::int32_t>(made.report.collapsed_triangle_count));

@@ -31,28 +31,30 @@ PlainMesh two_cubes(double gap = 0.01, std::uint32_t n = 6) {
   return mesh;
 }
 
-std::shared_ptr<const hf_inner::Geometry> plain_geometry(const PlainMesh& mesh, hf_inner::OperatorKind kind = {}) {
-  hf_inner::MeshInput input;
+std::shared_ptr<const hf_inner::surface::Geometry> plain_geometry(const PlainMesh& mesh,
+                                                                  hf_inner::mesh::OperatorKind kind = {}) {
+  hf_inner::mesh::MeshInput input;
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = mesh.triangle_count();
   input.positions = hf_inner::ConstRows(mesh.positions.data(), 3 * sizeof(double));
   input.triangles = hf_inner::IndexRows(mesh.triangles.data(), 3);
-  return hf_inner::Geometry::make(input, kind, std::make_shared<hf_inner::Memory>(),
-                                  std::make_shared<hf_inner::JobRunner>(1u));
+  return hf_inner::surface::Geometry::make(input, kind, std::make_shared<hf_inner::Memory>(),
+                                           std::make_shared<hf_inner::JobRunner>(1u));
 }
 
-hf_inner::LinkOptions automatic() {
-  hf_inner::LinkOptions options;
-  options.mode = hf_inner::LinkMode::pieces;
-  options.distance = hf_inner::default_link_distance;
-  options.overlay = hf_inner::default_overlay;
+hf_inner::mesh::LinkOptions automatic() {
+  hf_inner::mesh::LinkOptions options;
+  options.mode = hf_inner::mesh::LinkMode::pieces;
+  options.distance = hf_inner::mesh::default_link_distance;
+  options.overlay = hf_inner::mesh::default_overlay;
   return options;
 }
 
-std::shared_ptr<const hf_inner::Core> core_of(const std::shared_ptr<const hf_inner::Geometry>& shape) {
-  hf_inner::CoreOptions options;
+std::shared_ptr<const hf_inner::surface::Core> core_of(
+    const std::shared_ptr<const hf_inner::surface::Geometry>& shape) {
+  hf_inner::surface::CoreOptions options;
   options.operator_kind = shape->operator_kind;
-  return hf_inner::Core::make(shape, options);
+  return hf_inner::surface::Core::make(shape, options);
 }
 
 Eigen::MatrixXd dense(const hf_inner::SymmetricMatrix& k) {
@@ -63,16 +65,16 @@ Eigen::MatrixXd dense(const hf_inner::SymmetricMatrix& k) {
   return out;
 }
 
-std::vector<double> field_through(const std::shared_ptr<const hf_inner::Core>& core, const std::vector<Index>& vertices,
-                                  const std::vector<double>& values) {
-  const auto engine = hf_inner::SiteSolver::make(core);
-  std::vector<hf_inner::Site> sites;
+std::vector<double> field_through(const std::shared_ptr<const hf_inner::surface::Core>& core,
+                                  const std::vector<Index>& vertices, const std::vector<double>& values) {
+  const auto engine = hf_inner::solve::SiteSolver::make(core);
+  std::vector<hf_inner::solve::Site> sites;
   std::vector<Index> slots;
   for (const Index v : vertices) {
     slots.push_back(static_cast<Index>(sites.size()));
-    sites.push_back(hf_inner::Site::at_vertex(core->mesh, v));
+    sites.push_back(hf_inner::solve::Site::at_vertex(core->mesh, v));
   }
-  hf_inner::SiteEdit edit;
+  hf_inner::solve::SiteEdit edit;
   edit.add = slots;
   edit.sites = sites;
   engine->edit(edit);
@@ -84,7 +86,7 @@ std::vector<double> field_through(const std::shared_ptr<const hf_inner::Core>& c
 TEST(Links, join_two_cubes_into_one_component) {
   const auto plain = plain_geometry(two_cubes());
   ASSERT_EQ(plain->mesh.component_count(), 2);
-  const auto linked = hf_inner::Geometry::linked(plain, automatic());
+  const auto linked = hf_inner::surface::Geometry::linked(plain, automatic());
   ASSERT_TRUE(linked->links);
   EXPECT_EQ(linked->mesh.component_count(), 1);
   EXPECT_EQ(linked->links->alone_count, 0);
@@ -92,13 +94,13 @@ TEST(Links, join_two_cubes_into_one_component) {
   EXPECT_NEAR(linked->links->longest_tree_link * plain->mesh.scale, 0.01, 1e-12);
   EXPECT_EQ(&linked->unlinked(), plain.get());
   // The topology has the links as edges without triangles, and lists neighbours both ways.
-  const hf_inner::Topology& t = linked->topology();
+  const hf_inner::mesh::Topology& t = linked->topology();
   Index without = 0;
   for (Index e = 0; e < t.edge_count(); ++e)
     without += t.edge_triangle_start[at(e)] == t.edge_triangle_start[at(e) + 1];
   EXPECT_EQ(without, t.edge_count() - plain->topology().edge_count());
   std::set<std::pair<Index, Index>> springs;
-  for (const hf_inner::Link& link : linked->links->links) {
+  for (const hf_inner::mesh::Link& link : linked->links->links) {
     for (const Index corner : link.corner) {
       if (corner >= 0) springs.insert(std::minmax(link.vertex, corner));
     }
@@ -113,9 +115,9 @@ TEST(Links, join_two_cubes_into_one_component) {
 }
 
 TEST(Links, keep_the_operator_a_symmetric_m_matrix_whose_rows_sum_to_zero) {
-  for (const auto kind :
-       {hf_inner::OperatorKind::intrinsic_delaunay, hf_inner::OperatorKind::clamped, hf_inner::OperatorKind::uniform}) {
-    const auto core = core_of(hf_inner::Geometry::linked(plain_geometry(two_cubes(), kind), automatic()));
+  for (const auto kind : {hf_inner::mesh::OperatorKind::intrinsic_delaunay, hf_inner::mesh::OperatorKind::clamped,
+                          hf_inner::mesh::OperatorKind::uniform}) {
+    const auto core = core_of(hf_inner::surface::Geometry::linked(plain_geometry(two_cubes(), kind), automatic()));
     const Eigen::MatrixXd k = dense(core->laplacian);
     EXPECT_EQ((k - k.transpose()).cwiseAbs().maxCoeff(), 0);
     for (Index v = 0; v < core->size(); ++v) {
@@ -131,9 +133,9 @@ TEST(Links, keep_the_operator_a_symmetric_m_matrix_whose_rows_sum_to_zero) {
 
 TEST(Links, make_the_operator_of_springs_from_points_to_triangles) {
   const auto plain = plain_geometry(two_cubes());
-  const auto linked = hf_inner::Geometry::linked(plain, automatic());
+  const auto linked = hf_inner::surface::Geometry::linked(plain, automatic());
   Eigen::MatrixXd k = dense(core_of(plain)->laplacian);
-  for (const hf_inner::Link& link : linked->links->links) {
+  for (const hf_inner::mesh::Link& link : linked->links->links) {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       if (link.corner[c] < 0) continue;
@@ -154,7 +156,8 @@ TEST(Links, make_the_operator_of_springs_from_points_to_triangles) {
   Eigen::MatrixXd values(2, 1);
   values << -1, 2;
   const Eigen::MatrixXd exact = hf_test::dense_field(
-      *core, {hf_inner::Site::at_vertex(core->mesh, 0), hf_inner::Site::at_vertex(core->mesh, far)}, values);
+      *core, {hf_inner::solve::Site::at_vertex(core->mesh, 0), hf_inner::solve::Site::at_vertex(core->mesh, far)},
+      values);
   for (std::size_t v = 0; v < field.size(); ++v) {
     EXPECT_NEAR(field[v], exact(static_cast<Index>(v), 0), 1e-10);
     EXPECT_GE(field[v], -1 - 1e-12);
@@ -166,7 +169,7 @@ TEST(Links, make_the_operator_of_springs_from_points_to_triangles) {
 
 TEST(Links, of_a_surface_of_one_piece_are_none) {
   const auto plain = plain_geometry(hf_test::torus(12, 9));
-  EXPECT_EQ(hf_inner::Geometry::linked(plain, automatic()), plain);
+  EXPECT_EQ(hf_inner::surface::Geometry::linked(plain, automatic()), plain);
 }
 
 // A body and a sheet close above its top, over a third of it.
@@ -184,7 +187,7 @@ PlainMesh body_with_sheet() {
 
 TEST(Links, a_sheet_is_light_and_hardly_changes_the_field_of_the_body) {
   const auto plain = plain_geometry(body_with_sheet());
-  const auto linked = hf_inner::Geometry::linked(plain, automatic());
+  const auto linked = hf_inner::surface::Geometry::linked(plain, automatic());
   ASSERT_TRUE(linked->links);
   EXPECT_EQ(linked->links->light[0], 0);
   EXPECT_EQ(linked->links->light[1], 1);
@@ -206,7 +209,7 @@ TEST(Links, a_sheet_is_light_and_hardly_changes_the_field_of_the_body) {
   auto options = automatic();
   const Index on_sheet = core->size() - 1;
   options.heavy = {&on_sheet, 1};
-  const auto heavy = hf_inner::Geometry::linked(plain, options);
+  const auto heavy = hf_inner::surface::Geometry::linked(plain, options);
   EXPECT_EQ(heavy->links->light[1], 0);
   const std::vector<double> stiff = field_through(core_of(heavy), {0, 90}, {0, 1});
   double heavy_change = 0;
@@ -223,12 +226,12 @@ TEST(Links, a_piece_is_light_by_the_hosts_word) {
   auto options = automatic();
   const Index on_second = plain->mesh.vertex_count() - 1;
   options.light = {&on_second, 1};
-  const auto linked = hf_inner::Geometry::linked(plain, options);
+  const auto linked = hf_inner::surface::Geometry::linked(plain, options);
   ASSERT_TRUE(linked->links);
   EXPECT_EQ(linked->links->light[0], 0);
   EXPECT_EQ(linked->links->light[1], 1);
   EXPECT_EQ(linked->mesh.component_count(), 1);
-  const auto heavy = hf_inner::Geometry::linked(plain, automatic());
+  const auto heavy = hf_inner::surface::Geometry::linked(plain, automatic());
   const std::vector<double> alone = field_through(core_of(plain), {0, 40}, {0, 1}),
                             with = field_through(core_of(linked), {0, 40}, {0, 1}),
                             stiff = field_through(core_of(heavy), {0, 40}, {0, 1});
@@ -242,9 +245,9 @@ TEST(Links, a_piece_is_light_by_the_hosts_word) {
   EXPECT_GT(heavy_change, 10 * change);
   const Index on_first = 0;
   options.heavy = {&on_second, 1};
-  EXPECT_THROW(hf_inner::Geometry::linked(plain, options), hf_inner::Error);
+  EXPECT_THROW(hf_inner::surface::Geometry::linked(plain, options), hf_inner::Error);
   options.heavy = {&on_first, 1};
-  EXPECT_EQ(hf_inner::Geometry::linked(plain, options)->links->light[1], 1);
+  EXPECT_EQ(hf_inner::surface::Geometry::linked(plain, options)->links->light[1], 1);
 }
 
 TEST(Links, the_difference_of_skin_weights_counts_a_joint_once) {
@@ -252,7 +255,7 @@ TEST(Links, the_difference_of_skin_weights_counts_a_joint_once) {
   const auto plain = plain_geometry(mesh);
   const std::uint16_t joints[] = {1, 1, 1, 2, 2, 2, 3, 1};
   const float weights[] = {0.5f, 0.5f, 1, 0, 0.5f, 0.5f, 0.25f, 0.75f};
-  hf_inner::SkinHint skin;
+  hf_inner::mesh::SkinHint skin;
   skin.influence_count = 2;
   skin.joints = joints;
   skin.weights = weights;
@@ -276,18 +279,18 @@ TEST(Links, pieces_of_different_tags_stay_apart) {
   for (std::size_t v = 0; v < tags.size(); ++v) tags[v] = mesh.positions[3 * v] > 1.001 ? 7 : 1;
   auto options = automatic();
   options.tags = tags;
-  EXPECT_EQ(hf_inner::Geometry::linked(plain, options), plain);
+  EXPECT_EQ(hf_inner::surface::Geometry::linked(plain, options), plain);
 }
 
 TEST(Links, stop_at_the_distance_and_count_what_stays_alone) {
   PlainMesh mesh = two_cubes();
   hf_test::append(mesh, box(2, {0.5, 0.5, 0.5}, {0, 0, 0}), 4);
-  const auto linked = hf_inner::Geometry::linked(plain_geometry(mesh), automatic());
+  const auto linked = hf_inner::surface::Geometry::linked(plain_geometry(mesh), automatic());
   EXPECT_EQ(linked->mesh.component_count(), 2);
   EXPECT_EQ(linked->links->alone_count, 1);
   auto options = automatic();
   options.distance = 1;
-  EXPECT_EQ(hf_inner::Geometry::linked(plain_geometry(mesh), options)->mesh.component_count(), 1);
+  EXPECT_EQ(hf_inner::surface::Geometry::linked(plain_geometry(mesh), options)->mesh.component_count(), 1);
 }
 
 TEST(Links, skin_weights_choose_between_neighbours) {
@@ -299,13 +302,13 @@ TEST(Links, skin_weights_choose_between_neighbours) {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
     joints.push_back(mesh.positions[3 * v] > 1.015 || mesh.positions[3 * v + 2] > 1.01 ? 5 : 3);
   const std::vector<float> weights(mesh.vertex_count(), 1);
-  const auto linked_to = [&](const hf_inner::SkinHint& skin) {
+  const auto linked_to = [&](const hf_inner::mesh::SkinHint& skin) {
     auto options = automatic();
     options.skin = skin;
     options.overlay = 0;
-    const auto shape = hf_inner::Geometry::linked(plain_geometry(mesh), options);
+    const auto shape = hf_inner::surface::Geometry::linked(plain_geometry(mesh), options);
     std::vector<int> count(3, 0);
-    for (const hf_inner::Link& link : shape->links->links) {
+    for (const hf_inner::mesh::Link& link : shape->links->links) {
       const Index a = shape->links->piece[at(link.vertex)];
       Index b = -1;
       for (const Index c : link.corner) b = c >= 0 ? shape->links->piece[at(c)] : b;
@@ -334,9 +337,9 @@ TEST(Links, what_moves_with_the_same_joints_is_held_together_firmly) {
     auto options = automatic();
     options.overlay = 0;
     options.skin = {2, joints.data(), weights.data(), {}};
-    const auto linked = hf_inner::Geometry::linked(plain_geometry(mesh), options);
+    const auto linked = hf_inner::surface::Geometry::linked(plain_geometry(mesh), options);
     double least = 1e300, most = 0;
-    for (const hf_inner::Link& link : linked->links->links) {
+    for (const hf_inner::mesh::Link& link : linked->links->links) {
       least = std::min(least, link.weight);
       most = std::max(most, link.weight);
     }
@@ -344,9 +347,9 @@ TEST(Links, what_moves_with_the_same_joints_is_held_together_firmly) {
     return std::make_pair(least, most);
   };
   const auto equal = weight_of_links(0), half = weight_of_links(0.25f), other = weight_of_links(0.5f);
-  EXPECT_DOUBLE_EQ(equal.first, 1 + hf_inner::rigid_weight);
-  EXPECT_DOUBLE_EQ(equal.second, 1 + hf_inner::rigid_weight);
-  EXPECT_NEAR(half.first, 1 + 0.5 * hf_inner::rigid_weight, 1);
+  EXPECT_DOUBLE_EQ(equal.first, 1 + hf_inner::mesh::rigid_weight);
+  EXPECT_DOUBLE_EQ(equal.second, 1 + hf_inner::mesh::rigid_weight);
+  EXPECT_NEAR(half.first, 1 + 0.5 * hf_inner::mesh::rigid_weight, 1);
   EXPECT_DOUBLE_EQ(other.first, 1);
   EXPECT_DOUBLE_EQ(other.second, 1);
 }
@@ -360,14 +363,14 @@ TEST(Links, pieces_of_different_joints_link_near_the_middle_of_their_contact) {
   auto options = automatic();
   options.skin = {1, joints.data(), weights.data(), {}};
   const auto plain = plain_geometry(mesh);
-  const auto shape = hf_inner::Geometry::linked(plain, options);
+  const auto shape = hf_inner::surface::Geometry::linked(plain, options);
   ASSERT_TRUE(shape->links);
   ASSERT_EQ(shape->links->links.size(), 2u);  // one of each side
   EXPECT_NE(shape->links->piece[at(shape->links->links[0].vertex)],
             shape->links->piece[at(shape->links->links[1].vertex)]);
-  for (const hf_inner::Link& link : shape->links->links) {
+  for (const hf_inner::mesh::Link& link : shape->links->links) {
     EXPECT_TRUE(link.tree);
-    EXPECT_GE(link.weight, double{hf_inner::links_a_side});
+    EXPECT_GE(link.weight, double{hf_inner::mesh::links_a_side});
     const hf_inner::Vec3 p = plain->mesh.to_given(plain->mesh.positions[at(link.vertex)]);
     EXPECT_LT(std::hypot(p.y - 0.5, p.z - 0.5), 0.2);
   }
@@ -381,20 +384,20 @@ TEST(Links, a_sheet_of_another_joint_has_few_links) {
   const std::vector<float> weights(mesh.vertex_count(), 1);
   auto options = automatic();
   options.skin = {1, joints.data(), weights.data(), {}};
-  const auto shape = hf_inner::Geometry::linked(plain_geometry(mesh), options);
+  const auto shape = hf_inner::surface::Geometry::linked(plain_geometry(mesh), options);
   ASSERT_TRUE(shape->links);
   EXPECT_EQ(shape->links->light[1], 1);
-  EXPECT_EQ(shape->links->links.size(), hf_inner::light_hinge_links);
+  EXPECT_EQ(shape->links->links.size(), hf_inner::mesh::light_hinge_links);
 }
 
 // The least squared distance from a vertex to the triangles of a group, by trying all.
-double least_distance(const hf_inner::Mesh& mesh, const std::vector<Index>& group, Index g, Index v) {
+double least_distance(const hf_inner::mesh::Mesh& mesh, const std::vector<Index>& group, Index g, Index v) {
   double least = 1e300;
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
     if (group[at(t)] != g) continue;
     const Index* c = mesh.triangle(t);
-    least = std::min(least, hf_inner::squared_to_triangle(mesh.positions[at(v)], mesh.positions[at(c[0])],
-                                                          mesh.positions[at(c[1])], mesh.positions[at(c[2])]));
+    least = std::min(least, hf_inner::mesh::squared_to_triangle(mesh.positions[at(v)], mesh.positions[at(c[0])],
+                                                                mesh.positions[at(c[1])], mesh.positions[at(c[2])]));
   }
   return least;
 }
@@ -406,11 +409,11 @@ Index search_hint(const std::vector<Index>& group, Index g) {
 
 TEST(Links, the_nearest_triangle_of_a_piece_agrees_with_trying_them_all) {
   const auto shape = plain_geometry(two_cubes());
-  const hf_inner::Mesh& mesh = shape->mesh;
+  const hf_inner::mesh::Mesh& mesh = shape->mesh;
   std::vector<Index> group;
   for (Index t = 0; t < mesh.triangle_count(); ++t) group.push_back(mesh.component[at(mesh.triangle(t)[0])]);
-  const hf_inner::SkinHint none;
-  const hf_inner::ContactSearch search(mesh, none, *shape->memory);
+  const hf_inner::mesh::SkinHint none;
+  const hf_inner::mesh::ContactSearch search(mesh, none, *shape->memory);
   for (Index v = 0; v < mesh.vertex_count(); v += 3) {
     for (Index g = 0; g < 2; ++g) {
       const double least = least_distance(mesh, group, g, v);
@@ -438,20 +441,21 @@ TEST(Links, the_nearest_triangle_of_a_piece_agrees_with_trying_them_all) {
 
 TEST(Links, contacts_agree_with_trying_all_triangles) {
   const auto shape = plain_geometry(two_cubes());
-  const hf_inner::Mesh& mesh = shape->mesh;
+  const hf_inner::mesh::Mesh& mesh = shape->mesh;
   std::vector<Index> group;
   for (Index t = 0; t < mesh.triangle_count(); ++t) group.push_back(mesh.component[at(mesh.triangle(t)[0])]);
-  const hf_inner::SkinHint none;
-  const hf_inner::ContactSearch search(mesh, none, *shape->memory);
+  const hf_inner::mesh::SkinHint none;
+  const hf_inner::mesh::ContactSearch search(mesh, none, *shape->memory);
   constexpr double range = 0.2, depth = 0.05;
   hf_inner::Memory memory;
   for (Index from = 0; from < 2; ++from) {
-    hf_inner::Vector<hf_inner::Contact> found(&memory), best(at(mesh.vertex_count()), {-1, -1, 1e300, 1e300}, &memory);
+    hf_inner::Vector<hf_inner::mesh::Contact> found(&memory),
+        best(at(mesh.vertex_count()), {-1, -1, 1e300, 1e300}, &memory);
     double reach = range, nearest = 1e300;
     search.find(from, 1 - from, depth, reach, found, SIZE_MAX);
     search.improve(from, 1 - from, range, best);
     std::vector<double> distance(at(mesh.vertex_count()), -1);
-    for (const hf_inner::Contact& contact : found) distance[at(contact.vertex)] = contact.distance;
+    for (const hf_inner::mesh::Contact& contact : found) distance[at(contact.vertex)] = contact.distance;
     for (const Index v : search.vertices_of(from))
       nearest = std::min(nearest, std::sqrt(least_distance(mesh, group, 1 - from, v)));
     EXPECT_NEAR(reach, nearest + depth, 1e-12);
@@ -473,7 +477,7 @@ TEST(Links, contacts_agree_with_trying_all_triangles) {
 // What skin weights add at least bounds the search, so that it must be below the cost of every contact.
 TEST(Links, the_least_skin_cost_is_below_that_of_every_contact) {
   const auto shape = plain_geometry(two_cubes());
-  const hf_inner::Mesh& mesh = shape->mesh;
+  const hf_inner::mesh::Mesh& mesh = shape->mesh;
   constexpr std::uint32_t slots = 3;
   std::uint32_t state = 7;
   const auto random = [&] { return static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0f; };
@@ -487,8 +491,8 @@ TEST(Links, the_least_skin_cost_is_below_that_of_every_contact) {
       joints.insert(joints.end(), {static_cast<std::uint16_t>(second ? 9 : 2), 4, 4});
       weights.insert(weights.end(), {first, rest, rest});
     }
-    const hf_inner::SkinHint skin{slots, joints.data(), weights.data(), {}};
-    const hf_inner::ContactSearch search(mesh, skin, *shape->memory);
+    const hf_inner::mesh::SkinHint skin{slots, joints.data(), weights.data(), {}};
+    const hf_inner::mesh::ContactSearch search(mesh, skin, *shape->memory);
     const double least = search.least_skin_cost(0, 1);
     EXPECT_EQ(search.least_skin_cost(1, 0), least);
     double lowest = 1, cheapest[2] = {1, 1};
@@ -500,9 +504,9 @@ TEST(Links, the_least_skin_cost_is_below_that_of_every_contact) {
         if (mesh.component[at(c[0])] == from) continue;
         double share[3];
         const double d =
-            std::sqrt(hf_inner::squared_to_triangle(mesh.positions[at(v)], mesh.positions[at(c[0])],
-                                                    mesh.positions[at(c[1])], mesh.positions[at(c[2])], share));
-        const double added = hf_inner::skin_distance * difference(skin, mesh, v, c, share);
+            std::sqrt(hf_inner::mesh::squared_to_triangle(mesh.positions[at(v)], mesh.positions[at(c[0])],
+                                                          mesh.positions[at(c[1])], mesh.positions[at(c[2])], share));
+        const double added = hf_inner::mesh::skin_distance * difference(skin, mesh, v, c, share);
         lowest = std::min(lowest, added);
         if (d < nearest) {
           nearest = d;
@@ -512,15 +516,15 @@ TEST(Links, the_least_skin_cost_is_below_that_of_every_contact) {
       cheapest[at(from)] = std::min(cheapest[at(from)], cost);
     }
     EXPECT_LE(least, lowest);
-    EXPECT_GE(least, lowest - (rigid ? 1e-8 : hf_inner::skin_distance / 2));
-    EXPECT_GT(least, 0.5 * hf_inner::skin_distance * (rigid ? 2 : 1) - 1e-8);
+    EXPECT_GE(least, lowest - (rigid ? 1e-8 : hf_inner::mesh::skin_distance / 2));
+    EXPECT_GT(least, 0.5 * hf_inner::mesh::skin_distance * (rigid ? 2 : 1) - 1e-8);
     // The search ends at the cheapest contact, as trying all does.
     for (Index from = 0; from < 2; ++from) {
       hf_inner::Memory memory;
-      hf_inner::Vector<hf_inner::Contact> found(&memory);
+      hf_inner::Vector<hf_inner::mesh::Contact> found(&memory);
       double reach = 1, cost = 1;
       search.find(from, 1 - from, 0, reach, found, SIZE_MAX);
-      for (const hf_inner::Contact& contact : found) cost = std::min(cost, contact.cost);
+      for (const hf_inner::mesh::Contact& contact : found) cost = std::min(cost, contact.cost);
       EXPECT_NEAR(cost, cheapest[at(from)], 1e-12);
       EXPECT_NEAR(reach, cost - least, 1e-12);
     }
@@ -535,7 +539,7 @@ TEST(Links, of_too_many_pieces_are_refused) {
     mesh.triangles.insert(mesh.triangles.end(), {3 * i, 3 * i + 1, 3 * i + 2});
   }
   try {
-    hf_inner::Geometry::linked(plain_geometry(mesh), automatic());
+    hf_inner::surface::Geometry::linked(plain_geometry(mesh), automatic());
     FAIL() << "not refused";
   } catch (const hf_inner::Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_TOO_LARGE);
@@ -546,7 +550,7 @@ TEST(Links, of_thousands_of_pieces_are_found) {
   PlainMesh mesh;
   for (int i = 0; i < 400; ++i) hf_test::append(mesh, box(1, {0.9, 1, 1}, {0, 0, 0}), i);
   auto options = automatic();
-  const auto linked = hf_inner::Geometry::linked(plain_geometry(mesh), options);
+  const auto linked = hf_inner::surface::Geometry::linked(plain_geometry(mesh), options);
   EXPECT_EQ(linked->mesh.component_count(), 1);
 }
 

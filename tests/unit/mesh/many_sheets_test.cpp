@@ -20,27 +20,29 @@ using hf_test::PlainMesh;
 // A mesh that keeps the numbers of its vertices, with its tables. Lengths are in box diagonals.
 struct Shape {
   explicit Shape(const PlainMesh& plain)
-      : mesh(make(plain, memory)), topology(hf_inner::Topology::make(mesh, memory)), sides(mesh, topology, memory) {}
-  static hf_inner::Mesh make(const PlainMesh& plain, hf_inner::Memory& memory) {
-    hf_inner::MeshInput input;
+      : mesh(make(plain, memory)),
+        topology(hf_inner::mesh::Topology::make(mesh, memory)),
+        sides(mesh, topology, memory) {}
+  static hf_inner::mesh::Mesh make(const PlainMesh& plain, hf_inner::Memory& memory) {
+    hf_inner::mesh::MeshInput input;
     input.vertex_count = plain.vertex_count();
     input.triangle_count = plain.triangle_count();
     input.positions = hf_inner::ConstRows(plain.positions.data(), 3 * sizeof(double));
     input.triangles = hf_inner::IndexRows(plain.triangles.data(), 3);
-    input.weld = hf_inner::Weld::none;
-    return hf_inner::Mesh::make(input, memory);
+    input.weld = hf_inner::mesh::Weld::none;
+    return hf_inner::mesh::Mesh::make(input, memory);
   }
-  hf_inner::ExactDistance exact(const std::vector<Index>& given, std::uint64_t most_windows = 0) {
+  hf_inner::mesh::ExactDistance exact(const std::vector<Index>& given, std::uint64_t most_windows = 0) {
     const std::vector<Index> sources = inner(given);
-    hf_inner::ExactTask task;
+    hf_inner::mesh::ExactTask task;
     task.sources = sources;
     task.most_windows = most_windows;
-    return hf_inner::exact_distance(sides, task, memory);
+    return hf_inner::mesh::exact_distance(sides, task, memory);
   }
   std::vector<double> front(const std::vector<Index>& given) {
     const std::vector<Index> sources = inner(given);
     std::vector<double> d(mesh.positions.size());
-    hf_inner::FrontDistance(mesh, topology, memory).distance(sources, d.data());
+    hf_inner::mesh::FrontDistance(mesh, topology, memory).distance(sources, d.data());
     return d;
   }
   std::vector<Index> inner(std::vector<Index> given) const {
@@ -52,13 +54,13 @@ struct Shape {
     for (const Index s : inner(given)) least = std::min(least, norm(mesh.positions[at(v)] - mesh.positions[at(s)]));
     return least;
   }
-  hf_inner::GeodesicPoint point(const Index* corners, const double* weights) {
-    return hf_inner::GeodesicPoint(sides, corners, weights, memory);
+  hf_inner::mesh::GeodesicPoint point(const Index* corners, const double* weights) {
+    return hf_inner::mesh::GeodesicPoint(sides, corners, weights, memory);
   }
   hf_inner::Memory memory;
-  hf_inner::Mesh mesh;
-  hf_inner::Topology topology;
-  hf_inner::TriangleSides sides;
+  hf_inner::mesh::Mesh mesh;
+  hf_inner::mesh::Topology topology;
+  hf_inner::mesh::TriangleSides sides;
 };
 
 PlainMesh bumpy_sheet(std::uint32_t n) {
@@ -104,8 +106,8 @@ TEST(ShortestPath, and_maps_of_a_two_sided_sheet_are_those_of_the_single_one) {
   for (const Index t : {0, 77, 287}) {
     for (const Index u : {5, 131, 250}) {
       const auto path = [&](Shape& shape) {
-        return hf_inner::shortest_path(shape.sides, shape.point(shape.mesh.triangle(t), weights),
-                                       shape.point(shape.mesh.triangle(u), weights), shape.memory);
+        return hf_inner::mesh::shortest_path(shape.sides, shape.point(shape.mesh.triangle(t), weights),
+                                             shape.point(shape.mesh.triangle(u), weights), shape.memory);
       };
       const auto expected = path(one), found = path(two);
       EXPECT_NEAR(found.length, expected.length, 1e-14);
@@ -113,10 +115,10 @@ TEST(ShortestPath, and_maps_of_a_two_sided_sheet_are_those_of_the_single_one) {
     }
     const auto map = [&](Shape& shape) {
       const auto from = shape.point(shape.mesh.triangle(t), weights);
-      hf_inner::ExactTask task;
+      hf_inner::mesh::ExactTask task;
       task.from = &from;
       task.directions = true;
-      return hf_inner::exact_distance(shape.sides, task, shape.memory);
+      return hf_inner::mesh::exact_distance(shape.sides, task, shape.memory);
     };
     const auto expected = map(one), found = map(two);
     for (std::size_t v = 0; v < expected.direction.size(); ++v)
@@ -233,8 +235,8 @@ TEST(GeodesicPoint, in_a_triangle_of_two_equal_corners_is_on_the_edge_between_th
     ASSERT_TRUE(point.found());
     const double half = 0.5 * norm(shape.mesh.positions[1] - shape.mesh.positions[0]);
     EXPECT_NEAR(norm(point.position(shape.mesh) - shape.mesh.positions[0]), half, 1e-15);
-    const auto there = hf_inner::shortest_path(shape.sides, point, shape.point(origin, whole), shape.memory);
-    const auto back = hf_inner::shortest_path(shape.sides, shape.point(origin, whole), point, shape.memory);
+    const auto there = hf_inner::mesh::shortest_path(shape.sides, point, shape.point(origin, whole), shape.memory);
+    const auto back = hf_inner::mesh::shortest_path(shape.sides, shape.point(origin, whole), point, shape.memory);
     EXPECT_NEAR(there.length, half, 1e-15);
     EXPECT_NEAR(back.length, half, 1e-15);
   }

@@ -18,19 +18,19 @@ namespace {
 struct Given {
   std::vector<double> positions;
   std::vector<std::uint32_t> triangles;
-  hf_inner::Weld weld = hf_inner::Weld::exact;
+  hf_inner::mesh::Weld weld = hf_inner::mesh::Weld::exact;
   double tolerance = 0;
 
-  hf_inner::Mesh make(hf_inner::Memory& memory) const {
-    hf_inner::MeshInput input;
+  hf_inner::mesh::Mesh make(hf_inner::Memory& memory) const {
+    hf_inner::mesh::MeshInput input;
     input.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
     input.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
     input.positions = hf_inner::ConstRows(positions.data(), 3 * sizeof(double));
     input.triangles = hf_inner::IndexRows(triangles.data(), 3);
     input.weld = weld;
     input.weld_tolerance = tolerance;
-    hf_inner::Mesh mesh = hf_inner::Mesh::make(input, memory);
-    hf_inner::count_edges(hf_inner::Topology::make(mesh, memory), mesh.report);
+    hf_inner::mesh::Mesh mesh = hf_inner::mesh::Mesh::make(input, memory);
+    hf_inner::mesh::count_edges(hf_inner::mesh::Topology::make(mesh, memory), mesh.report);
     return mesh;
   }
   hf_result code(std::uint32_t* index = nullptr) const {
@@ -50,7 +50,7 @@ Given cut_square() { return {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0.0, -0.0, 0, 0, 1, 0, 
 
 TEST(Mesh, welds_bit_equal_copies_into_one_vertex) {
   hf_inner::Memory memory;
-  const hf_inner::Mesh mesh = cut_square().make(memory);
+  const hf_inner::mesh::Mesh mesh = cut_square().make(memory);
   EXPECT_EQ(mesh.vertex_count(), 4);
   EXPECT_EQ(mesh.report.component_count, 1u);
   EXPECT_EQ(mesh.inner_of_given[0], mesh.inner_of_given[3]);
@@ -61,8 +61,8 @@ TEST(Mesh, welds_bit_equal_copies_into_one_vertex) {
 TEST(Mesh, keeps_vertices_as_stored_when_told_so) {
   hf_inner::Memory memory;
   Given given = cut_square();
-  given.weld = hf_inner::Weld::none;
-  const hf_inner::Mesh mesh = given.make(memory);
+  given.weld = hf_inner::mesh::Weld::none;
+  const hf_inner::mesh::Mesh mesh = given.make(memory);
   EXPECT_EQ(mesh.vertex_count(), 6);
   EXPECT_EQ(mesh.report.component_count, 2u);
 }
@@ -93,7 +93,7 @@ TEST(Mesh, welds_places_that_were_made_to_collide) {
   for (std::uint32_t v = 0; v + 2 < places; ++v)
     given.triangles.insert(given.triangles.end(), {v, 2 * places - 2 - v, v + 2});
   hf_inner::Memory memory;
-  const hf_inner::Mesh mesh = given.make(memory);
+  const hf_inner::mesh::Mesh mesh = given.make(memory);
   EXPECT_EQ(mesh.vertex_count(), static_cast<std::int32_t>(places));
   EXPECT_EQ(mesh.report.component_count, 1u);
   for (std::uint32_t v = 0; v < places; ++v)
@@ -106,7 +106,7 @@ TEST(Mesh, welds_within_a_tolerance_across_cell_borders) {
   given.positions[9] = -0.0007;
   given.positions[15] = 1.0006;
   EXPECT_EQ(given.make(memory).report.component_count, 2u);
-  given.weld = hf_inner::Weld::tolerance;
+  given.weld = hf_inner::mesh::Weld::tolerance;
   given.tolerance = 0.001;
   EXPECT_EQ(given.make(memory).report.component_count, 1u);
   given.tolerance = 0.0005;
@@ -120,9 +120,9 @@ TEST(Mesh, counts_what_is_dirty) {
   // three pages on one edge, one of them flipped; a duplicate; a collapsed and a zero-area triangle; an isolated vertex
   const Given given{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 9, 9, 9, 2, 0, 0},
                     {0, 1, 2, 0, 1, 3, 1, 0, 4, 2, 0, 1, 3, 3, 4, 0, 1, 6}};
-  const hf_inner::Mesh mesh = given.make(memory);
+  const hf_inner::mesh::Mesh mesh = given.make(memory);
   EXPECT_EQ(mesh.report.isolated_vertex_count, 1u);
-  EXPECT_EQ(mesh.inner_of_given[5], hf_inner::Mesh::none);
+  EXPECT_EQ(mesh.inner_of_given[5], hf_inner::mesh::Mesh::none);
   EXPECT_EQ(mesh.report.collapsed_triangle_count, 1u);
   EXPECT_EQ(mesh.report.degenerate_triangle_count, 1u);
   EXPECT_EQ(mesh.report.duplicate_triangle_count, 1u);
@@ -153,7 +153,7 @@ TEST(Mesh, numbers_components_by_their_first_vertex) {
   hf_inner::Memory memory;
   hf_test::PlainMesh plain = hf_test::grid(2, 2);
   append(plain, hf_test::grid(1, 1), 10);
-  const hf_inner::Mesh mesh = Given{plain.positions, plain.triangles}.make(memory);
+  const hf_inner::mesh::Mesh mesh = Given{plain.positions, plain.triangles}.make(memory);
   EXPECT_EQ(mesh.report.component_count, 2u);
   EXPECT_EQ(mesh.component.front(), 0);
   EXPECT_EQ(mesh.component.back(), 1);
@@ -182,7 +182,7 @@ TEST(Mesh, refuses_what_it_cannot_take_and_names_it) {
 TEST(Mesh, a_vertex_without_a_triangle_changes_nothing) {
   hf_inner::Memory memory;
   const hf_test::PlainMesh plain = hf_test::torus(12, 8);
-  const hf_inner::Mesh first = Given{plain.positions, plain.triangles}.make(memory);
+  const hf_inner::mesh::Mesh first = Given{plain.positions, plain.triangles}.make(memory);
   for (const double far : {1e5, -3.0, 0.01, 1.7e308}) {
     for (const bool in_front : {true, false}) {
       for (const bool collapsed : {true, false}) {
@@ -192,7 +192,7 @@ TEST(Mesh, a_vertex_without_a_triangle_changes_nothing) {
         given.positions.insert(given.positions.begin() + 3 * static_cast<std::ptrdiff_t>(stray), place, place + 3);
         for (std::uint32_t& corner : given.triangles) corner += in_front;
         if (collapsed) given.triangles.insert(given.triangles.end(), {stray, stray, given.triangles[0]});
-        const hf_inner::Mesh mesh = given.make(memory);
+        const hf_inner::mesh::Mesh mesh = given.make(memory);
         ASSERT_EQ(mesh.positions.size(), first.positions.size());
         EXPECT_EQ(
             std::memcmp(mesh.positions.data(), first.positions.data(), sizeof(hf_inner::Vec3) * mesh.positions.size()),
@@ -229,7 +229,7 @@ TEST(Mesh, faces_are_cut_alike_in_any_unit_and_beside_a_vertex_that_no_face_has)
       std::vector<double> moved = positions;
       for (double& x : moved) x *= unit;
       moved.insert(moved.end(), {stray, stray, stray});
-      hf_inner::MeshInput input;
+      hf_inner::mesh::MeshInput input;
       input.vertex_count = static_cast<std::uint32_t>(moved.size() / 3);
       input.positions = hf_inner::ConstRows(moved.data(), 3 * sizeof(double));
       input.faces.face_count = static_cast<std::uint32_t>(sizes.size());
@@ -237,7 +237,7 @@ TEST(Mesh, faces_are_cut_alike_in_any_unit_and_beside_a_vertex_that_no_face_has)
       input.faces.sizes = hf_inner::IndexRows(sizes.data(), 1);
       input.faces.corners = hf_inner::IndexRows(corners.data(), 1);
       hf_inner::Memory memory;
-      const hf_inner::Mesh mesh = hf_inner::Mesh::make(input, memory);
+      const hf_inner::mesh::Mesh mesh = hf_inner::mesh::Mesh::make(input, memory);
       if (expected.empty()) {
         expected.assign(mesh.corners.begin(), mesh.corners.end());
         bent = mesh.faces.non_planar_count;
@@ -254,11 +254,11 @@ TEST(Mesh, faces_are_cut_alike_in_any_unit_and_beside_a_vertex_that_no_face_has)
 TEST(Mesh, is_the_same_at_any_scale_and_place) {
   hf_inner::Memory memory;
   const hf_test::PlainMesh plain = hf_test::torus(12, 8);
-  const hf_inner::Mesh first = Given{plain.positions, plain.triangles}.make(memory);
+  const hf_inner::mesh::Mesh first = Given{plain.positions, plain.triangles}.make(memory);
   for (const double scale : {1e-30, 1024.0, 1e30}) {
     std::vector<double> moved = plain.positions;
     for (double& x : moved) x = scale * x + (scale == 1024 ? 4096.0 : 0);
-    const hf_inner::Mesh mesh = Given{moved, plain.triangles}.make(memory);
+    const hf_inner::mesh::Mesh mesh = Given{moved, plain.triangles}.make(memory);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
       EXPECT_LE(norm(mesh.positions[v] - first.positions[v]), 1e-14);
   }

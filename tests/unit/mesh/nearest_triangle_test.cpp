@@ -10,6 +10,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::mesh;
 
 // The nearest of many points of the triangle, as an upper bound.
 double sampled(Vec3 p, const Vec3 (&corner)[3]) {

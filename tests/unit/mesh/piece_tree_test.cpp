@@ -9,9 +9,9 @@ namespace {
 
 using hf_inner::at;
 using hf_inner::Index;
-using hf_inner::ItemBox;
-using hf_inner::PieceTree;
 using hf_inner::Vec3;
+using hf_inner::mesh::ItemBox;
+using hf_inner::mesh::PieceTree;
 
 constexpr Index pieces = 5;
 
@@ -45,7 +45,8 @@ TEST(PieceTree, VisitsEveryBoxThatIsNear) {
       const Vec3 point = boxes.point();
       const double reach = k % 10 == 0 ? 0 : 0.01 * (k % 7);
       std::vector<int> seen(boxes.items.size(), 0);
-      tree.near(p, point, [&] { return reach * reach; }, [&](Index i) { ++seen[at(i)]; });
+      tree.near(
+          p, point, [&] { return reach * reach; }, [&](Index i) { ++seen[at(i)]; });
       for (std::size_t i = 0; i < seen.size(); ++i) {
         const bool own = boxes.piece[i] == p;
         const double distance = std::sqrt(squared_distance(point, boxes.items[i]));
@@ -64,7 +65,8 @@ TEST(PieceTree, FindsTheNearestBoxOfAll) {
       const Vec3 point = boxes.point();
       double best = HUGE_VAL, all = HUGE_VAL;  // no bound at first
       const auto distance = [&](Index i) { return squared_distance(point, boxes.items[at(i)]); };
-      tree.near(p, point, [&] { return best; }, [&](Index i) { best = std::min(best, distance(i)); });
+      tree.near(
+          p, point, [&] { return best; }, [&](Index i) { best = std::min(best, distance(i)); });
       for (const Index i : tree.items(p)) all = std::min(all, distance(i));
       EXPECT_EQ(best, all);
     }
@@ -100,7 +102,8 @@ TEST(PieceTree, TakesEqualBoxes) {
   const PieceTree tree(items, piece, 1, memory);
   for (Index i = 0; i < 9; ++i) EXPECT_EQ(tree.items(0)[at(i)], i);
   int seen = 0;
-  tree.near(0, {0.1, 0.2, 0.3}, [] { return 0.0; }, [&](Index) { ++seen; });
+  tree.near(
+      0, {0.1, 0.2, 0.3}, [] { return 0.0; }, [&](Index) { ++seen; });
   EXPECT_EQ(seen, 9);
 }
 

@@ -12,17 +12,17 @@
 namespace {
 
 using hf_inner::at;
-using hf_inner::PlaceReader;
-using hf_inner::Places;
-using hf_inner::SurfacePlace;
 using hf_inner::Vec3;
+using hf_inner::mesh::PlaceReader;
+using hf_inner::mesh::Places;
+using hf_inner::mesh::SurfacePlace;
 
 TEST(PlaceReader, no_triangle_is_nearer_than_the_place_of_a_point) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> one(-1, 1);
   for (const hf_test::PlainMesh& plain : {hf_test::grid(9, 7), hf_test::torus(20, 12)}) {
     const auto core = hf_test::make_core(plain);
-    const hf_inner::Mesh& mesh = core->mesh;
+    const hf_inner::mesh::Mesh& mesh = core->mesh;
     std::vector<double> points;
     for (int n = 0; n < 200; ++n) {
       const Vec3 p = mesh.to_given({one(random), one(random), one(random)});
@@ -35,8 +35,8 @@ TEST(PlaceReader, no_triangle_is_nearer_than_the_place_of_a_point) {
       double least = 1e9;
       for (std::int32_t t = 0; t < mesh.triangle_count(); ++t) {
         const std::int32_t* v = mesh.triangle(t);
-        least = std::min(least, hf_inner::squared_to_triangle(p, mesh.positions[at(v[0])], mesh.positions[at(v[1])],
-                                                              mesh.positions[at(v[2])]));
+        least = std::min(least, hf_inner::mesh::squared_to_triangle(
+                                    p, mesh.positions[at(v[0])], mesh.positions[at(v[1])], mesh.positions[at(v[2])]));
       }
       const SurfacePlace place = reader.read(i);
       double sum = 0;
@@ -49,7 +49,7 @@ TEST(PlaceReader, no_triangle_is_nearer_than_the_place_of_a_point) {
 
 TEST(PlaceReader, the_position_of_a_vertex_is_the_vertex) {
   const auto core = hf_test::make_core(hf_test::torus(20, 12));
-  const hf_inner::Mesh& mesh = core->mesh;
+  const hf_inner::mesh::Mesh& mesh = core->mesh;
   std::vector<double> points;
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 p = mesh.to_given(mesh.positions[at(v)]);
@@ -75,7 +75,7 @@ TEST(PlaceReader, corners_that_are_one_vertex_add_their_weights) {
   const auto core = hf_test::make_core(hf_test::grid(3, 3));
   const hf_place twice{{4, 5, 4}, 0, {0.25, 0.5, 0.25}};
   const SurfacePlace place = read_place(core->mesh, twice, 0, "places");
-  EXPECT_EQ(place.vertex[2], hf_inner::Mesh::none);
+  EXPECT_EQ(place.vertex[2], hf_inner::mesh::Mesh::none);
   EXPECT_EQ(place.weight[0], 0.5);
   EXPECT_EQ(place.weight[1], 0.5);
 }

@@ -17,6 +17,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::mesh;
 using hf_test::PlainMesh;
 
 // Boxes with a joint each. Feet, thighs, and hands and thighs touch, as in many rest poses. Helper joints without
@@ -90,7 +91,7 @@ struct Robot {
     input.triangle_count = mesh.triangle_count();
     input.positions = ConstRows(mesh.positions.data(), 3 * sizeof(double));
     input.triangles = IndexRows(mesh.triangles.data(), 3);
-    shape = Geometry::make(input, {}, std::make_shared<Memory>(), std::make_shared<JobRunner>(1u));
+    shape = surface::Geometry::make(input, {}, std::make_shared<Memory>(), std::make_shared<JobRunner>(1u));
     LinkOptions options;
     options.mode = LinkMode::pieces;
     options.distance = default_link_distance;
@@ -125,7 +126,7 @@ struct Robot {
   bool mirrored = false;
   double overlay = 0;  // no piece is light
   PlainMesh mesh;
-  std::shared_ptr<const Geometry> shape;
+  std::shared_ptr<const surface::Geometry> shape;
   int parts = 0;
   std::vector<std::uint32_t> parents, joint_of;
   std::vector<std::uint16_t> vertex_joint;

@@ -21,6 +21,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::mesh;
 using hf_test::PlainMesh;
 using Edge = std::array<std::uint32_t, 2>;
 
@@ -53,8 +54,8 @@ struct Shape {
     return point;
   }
   mutable Memory memory;
-  std::shared_ptr<const Core> core;
-  const Geometry& geometry;
+  std::shared_ptr<const surface::Core> core;
+  const surface::Geometry& geometry;
   const Mesh& mesh;
   const Topology& topology;
   PlainMesh given;

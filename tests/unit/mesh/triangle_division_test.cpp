@@ -12,6 +12,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::mesh;
 constexpr std::int64_t grid = GridPoint::grid;
 
 std::int64_t turn(const GridPoint& p, const GridPoint& q, const GridPoint& r) {

@@ -8,12 +8,13 @@
 #include <numeric>
 #include <random>
 
-#include "engine/site_solver.h"
+#include "solve/site_solver.h"
 #include "support/meshes.h"
 
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::mesh;
 
 // The same mesh with its vertices in another order: vertex v becomes to[v].
 hf_test::PlainMesh renamed(const hf_test::PlainMesh& mesh, const std::vector<std::uint32_t>& to) {
@@ -75,16 +76,16 @@ TEST(VertexOrder, AFieldDoesNotDependOnTheOrder) {
   const std::vector<std::uint32_t> to = shuffled(mesh.positions.size() / 3);
   const auto field = [](const hf_test::PlainMesh& given, std::vector<std::uint32_t> sites) {
     const auto core = hf_test::make_core(given);
-    auto solver = SiteSolver::make(core);
-    std::vector<Site> list;
+    auto solver = solve::SiteSolver::make(core);
+    std::vector<solve::Site> list;
     std::vector<double> values;
     for (const std::uint32_t v : sites) {
-      list.push_back(Site::at_vertex(core->mesh, core->mesh.inner_of_given[v]));
+      list.push_back(solve::Site::at_vertex(core->mesh, core->mesh.inner_of_given[v]));
       values.push_back(static_cast<double>(values.size() % 3));
     }
     std::vector<std::int32_t> slots(list.size());
     std::iota(slots.begin(), slots.end(), 0);
-    SiteEdit edit;
+    solve::SiteEdit edit;
     edit.add = slots;
     edit.sites = list;
     solver->edit(edit);

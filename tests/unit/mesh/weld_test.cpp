@@ -23,13 +23,13 @@ using Points = std::vector<Vec3>;
 using Representatives = std::vector<std::int32_t>;
 
 Representatives welded(const Points& points, double tolerance) {
-  hf_inner::MeshInput input;
+  hf_inner::mesh::MeshInput input;
   input.vertex_count = static_cast<std::uint32_t>(points.size());
   input.positions = hf_inner::ConstRows(&points.data()->x, sizeof(Vec3));
-  input.weld = hf_inner::Weld::tolerance;
+  input.weld = hf_inner::mesh::Weld::tolerance;
   input.weld_tolerance = tolerance;
   hf_inner::Memory memory;
-  const auto found = hf_inner::weld(input, memory);
+  const auto found = hf_inner::mesh::weld(input, memory);
   return {found.begin(), found.end()};
 }
 
@@ -228,10 +228,10 @@ TEST(WeldTolerance, heeds_a_cancel_in_every_part_of_its_work) {
   for (Vec3& p : scattered) p = random.in_box(17);
   for (std::size_t i = 0; i < dense.size(); ++i) dense[i] = (i % 2 ? 1.001 : 0.001) * random.on_sphere();
   for (const Points* points : {&scattered, &dense}) {
-    hf_inner::MeshInput input;
+    hf_inner::mesh::MeshInput input;
     input.vertex_count = static_cast<std::uint32_t>(points->size());
     input.positions = hf_inner::ConstRows(&points->data()->x, sizeof(Vec3));
-    input.weld = hf_inner::Weld::tolerance;
+    input.weld = hf_inner::mesh::Weld::tolerance;
     input.weld_tolerance = 1;
     for (int allocation = 0;; ++allocation) {
       Stopper stopper;
@@ -247,7 +247,7 @@ TEST(WeldTolerance, heeds_a_cancel_in_every_part_of_its_work) {
       hf_inner::Memory memory(hooks);
       try {
         const hf_inner::CallProgress call(&stopper.progress);
-        hf_inner::weld(input, memory);
+        hf_inner::mesh::weld(input, memory);
         EXPECT_GE(stopper.left, 0) << "allocation " << allocation << " was not the last, and nothing stopped";
         EXPECT_GT(allocation, 10);
         break;

@@ -22,10 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace hf_inner;
+using namespace hf_inner::quads;
 
 hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
 
-QuadResult make(const std::shared_ptr<const Core>& core, double edge_length = 0.022) {
+QuadResult make(const std::shared_ptr<const surface::Core>& core, double edge_length = 0.022) {
   FieldQuadOptions options;
   options.core = core;
   options.edge_length = edge_length;
@@ -33,12 +34,12 @@ QuadResult make(const std::shared_ptr<const Core>& core, double edge_length = 0.
 }
 
 // The oracle, apart from the library's own check: counted from the faces alone.
-void expect_valid(const Core& core, const QuadResult& result, const std::string& what) {
-  const QuadMesh& mesh = result.mesh;
+void expect_valid(const surface::Core& core, const QuadResult& result, const std::string& what) {
+  const remesh::QuadMesh& mesh = result.mesh;
   hf_test::expect_manifold(core, mesh, what);
   // every vertex is in its triangle, and where its weights say
   for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
-    const SurfacePoint& point = mesh.location[v];
+    const remesh::SurfacePoint& point = mesh.location[v];
     Vec3 p;
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
@@ -52,7 +53,7 @@ void expect_valid(const Core& core, const QuadResult& result, const std::string&
 }
 
 // Distance of the mesh and its surface, as hf_quads prints it: by code of the sample's own, over the box diagonal.
-double distance_of(const hf_test::PlainMesh& plain_mesh, const Core& core, const QuadMesh& mesh) {
+double distance_of(const hf_test::PlainMesh& plain_mesh, const surface::Core& core, const remesh::QuadMesh& mesh) {
   samples::TriangleSoup surface, quads;
   for (std::size_t v = 0; v < plain_mesh.positions.size(); v += 3)
     surface.positions.push_back({plain_mesh.positions[v], plain_mesh.positions[v + 1], plain_mesh.positions[v + 2]});
@@ -71,7 +72,7 @@ double distance_of(const hf_test::PlainMesh& plain_mesh, const Core& core, const
 struct Edges {
   double low, high;  // 5th and 95th percentile over the edge length
 };
-Edges edges_of(const QuadMesh& mesh, double edge_length) {
+Edges edges_of(const remesh::QuadMesh& mesh, double edge_length) {
   std::vector<double> lengths;
   for (std::int32_t f = 0; f < mesh.face_count(); ++f)
     for (std::int32_t k = 0; k < 4; ++k)
@@ -200,17 +201,17 @@ TEST(Quads, TheSameFromAnyNumberOfThreads) {
 
 TEST(Relax, WalksStraightOverEdgesAndStopsAtABorder) {
   const auto core = hf_test::make_core(hf_test::grid(10, 10, 1, 0.3));
-  const FluxSurface s = FluxSurface::make(core->mesh, core->topology(), *core->memory);
-  SurfacePoint start;
+  const remesh::FluxSurface s = remesh::FluxSurface::make(core->mesh, core->topology(), *core->memory);
+  remesh::SurfacePoint start;
   start.triangle = 101;
   start.weight[0] = 0.5;
   start.weight[1] = 0.3;
   start.weight[2] = 0.2;
   const Vec3 p = position_of(s, start), way{0.21, -0.13, 0.7};  // what points out of the plane is left out
-  const Vec3 q = position_of(s, walk_surface(s, start, way));
+  const Vec3 q = position_of(s, remesh::walk_surface(s, start, way));
   EXPECT_NEAR(q.x - p.x, 0.21, 1e-12);
   EXPECT_NEAR(q.y - p.y, -0.13, 1e-12);
-  const Vec3 end = position_of(s, walk_surface(s, start, {5, 0, 0}));
+  const Vec3 end = position_of(s, remesh::walk_surface(s, start, {5, 0, 0}));
   double border = -1;
   for (const Vec3& v : core->mesh.positions) border = std::max(border, v.x);
   EXPECT_NEAR(end.x, border, 1e-9);
@@ -220,11 +221,11 @@ TEST(Relax, WalksStraightOverEdgesAndStopsAtABorder) {
 TEST(NearestTriangle, AgreesWithTryingThemAll) {
   const auto core = hf_test::make_core(plain(hf_test::cactus(800)));
   Memory& memory = *core->memory;
-  Table<Vec3> positions(memory);
-  Table<std::int32_t> corners(memory), one(memory);
+  remesh::Table<Vec3> positions(memory);
+  remesh::Table<std::int32_t> corners(memory), one(memory);
   for (const Vec3& p : core->mesh.positions) positions.push_back(p);
   for (const std::int32_t v : core->mesh.corners) corners.push_back(v);
-  const NearestTriangle tree(span_of(positions), span_of(corners), memory);
+  const mesh::NearestTriangle tree(remesh::span_of(positions), remesh::span_of(corners), memory);
   for (std::uint64_t i = 0; i < 200; ++i) {
     const Vec3 p{samples::hash_to_unit(1, i) - 0.5, samples::hash_to_unit(2, i) - 0.5,
                  samples::hash_to_unit(3, i) - 0.5};
@@ -232,7 +233,8 @@ TEST(NearestTriangle, AgreesWithTryingThemAll) {
     for (std::int32_t t = 0; 3 * t < corners.size(); ++t) {
       one.clear();
       for (std::int32_t k = 0; k < 3; ++k) one.push_back(corners[3 * t + k]);
-      least = std::min(least, NearestTriangle(span_of(positions), span_of(one), memory).find(p).squared);
+      least = std::min(least,
+                       mesh::NearestTriangle(remesh::span_of(positions), remesh::span_of(one), memory).find(p).squared);
     }
     EXPECT_NEAR(tree.find(p).squared, least, 1e-15);
     // a search that may end early ends at something near enough, or at the nearest

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::quads;
 
 // A box of 12 triangles.
 hf_test::PlainMesh box(double x, double y, double z) {
@@ -59,10 +60,10 @@ TEST(CutMesh, is_the_same_surface_with_short_edges) {
     }
     fine.triangles.assign(cut.corner.begin(), cut.corner.end());
     const auto fine_core = hf_test::make_core(fine);
-    const auto euler = [](const Core& c) {
+    const auto euler = [](const surface::Core& c) {
       return c.mesh.vertex_count() - c.topology().edge_count() + c.mesh.triangle_count();
     };
-    const auto border = [](const Core& c) {
+    const auto border = [](const surface::Core& c) {
       double sum = 0;
       for (Index e = 0; e < c.topology().edge_count(); ++e) {
         if (c.topology().edge_triangle_start[at(e) + 1] - c.topology().edge_triangle_start[at(e)] != 1) continue;
@@ -107,13 +108,13 @@ TEST(CutQuads, lie_on_the_triangles_they_name) {
     options.core = core;
     options.faces = 600;
     options.crease = 0.7;
-    if (symmetric) options.plane = MirrorPlane{{1, 0, 0}, 0};
+    if (symmetric) options.plane = mesh::MirrorPlane{{1, 0, 0}, 0};
     ASSERT_TRUE(is_coarse(coarse_part(*core, 0.05)));
     const QuadResult result = make_field_quads(options);
     hf_test::expect_manifold(*core, result.mesh, "box");
     EXPECT_NEAR(result.mesh.face_count(), 600, 30);
     for (Index v = 0; v < result.mesh.position.size(); ++v) {
-      const SurfacePoint& point = result.mesh.location[v];
+      const remesh::SurfacePoint& point = result.mesh.location[v];
       Vec3 p;
       double sum = 0;
       for (int k = 0; k < 3; ++k) {
@@ -185,7 +186,7 @@ TEST(CutQuads, of_an_update_are_those_of_a_new_mesh) {
   same("with a crease");
   options.faces = 900;
   same("with another number");
-  options.plane = MirrorPlane{{1, 0, 0}, 0};
+  options.plane = mesh::MirrorPlane{{1, 0, 0}, 0};
   guides.clear();
   same("with a plane");
 }

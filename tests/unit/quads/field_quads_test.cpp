@@ -22,23 +22,24 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::quads;
 using Complex = std::complex<double>;
 
-std::shared_ptr<const Core> core_of(const samples::ShapeMesh& shape) {
+std::shared_ptr<const surface::Core> core_of(const samples::ShapeMesh& shape) {
   return hf_test::make_core({shape.positions, shape.triangles});
 }
 
 // Everything up to the map.
 struct Stages {
-  explicit Stages(std::shared_ptr<const Core> given, double radius = 0.1)
+  explicit Stages(std::shared_ptr<const surface::Core> given, double radius = 0.1)
       : core(std::move(given)),
-        surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
+        surface(remesh::FluxSurface::make(core->mesh, core->topology(), *core->memory)),
         system(core, 4),
         features(find_features(surface, 100, *core->memory)),
         faces([&] {
           const Vector<Complex> wish = curvature_crosses(*core, system.connection, 2);
           return FaceCross::make(surface, system.connection, CrossSmoother(system, radius).smooth(wish, {}), features,
-                                 SharpCorners(*core->memory), Table<std::complex<double>>(*core->memory),
+                                 SharpCorners(*core->memory), remesh::Table<std::complex<double>>(*core->memory),
                                  *core->memory);
         }()),
         seams(Seams::make(surface, faces, *core->memory)) {}
@@ -50,16 +51,16 @@ struct Stages {
     for (const std::int32_t index : faces.index) sum += index;
     return sum;
   }
-  std::shared_ptr<const Core> core;
-  FluxSurface surface;
-  DirectionMatrix system;
-  Table<std::uint8_t> features;
+  std::shared_ptr<const surface::Core> core;
+  remesh::FluxSurface surface;
+  field::DirectionMatrix system;
+  remesh::Table<std::uint8_t> features;
   FaceCross faces;
   Seams seams;
 };
 
-std::vector<std::pair<std::string, std::shared_ptr<const Core>>> shapes() {
-  std::vector<std::pair<std::string, std::shared_ptr<const Core>>> out;
+std::vector<std::pair<std::string, std::shared_ptr<const surface::Core>>> shapes() {
+  std::vector<std::pair<std::string, std::shared_ptr<const surface::Core>>> out;
   out.emplace_back("sphere", core_of(samples::sphere(24)));
   out.emplace_back("torus", core_of(samples::jittered_torus(40, 30)));
   out.emplace_back("cactus", core_of(hf_test::cactus(3000)));
@@ -70,10 +71,10 @@ std::vector<std::pair<std::string, std::shared_ptr<const Core>>> shapes() {
   return out;
 }
 
-void expect_valid(const Core& core, const QuadMesh& mesh, const std::string& what) {
+void expect_valid(const surface::Core& core, const remesh::QuadMesh& mesh, const std::string& what) {
   hf_test::expect_manifold(core, mesh, what);
   for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
-    const SurfacePoint& point = mesh.location[v];
+    const remesh::SurfacePoint& point = mesh.location[v];
     Vec3 p;
     for (int k = 0; k < 3; ++k) {
       ASSERT_GE(point.weight[k], -1e-9) << what;
@@ -84,15 +85,15 @@ void expect_valid(const Core& core, const QuadMesh& mesh, const std::string& wha
 }
 
 // Inner vertices of not 4 quads.
-std::int32_t irregular_count(const QuadMesh& mesh, Memory& memory) {
-  Table<std::int32_t> valence(mesh.position.size(), 0, memory);
+std::int32_t irregular_count(const remesh::QuadMesh& mesh, Memory& memory) {
+  remesh::Table<std::int32_t> valence(mesh.position.size(), 0, memory);
   for (const std::int32_t v : mesh.corner) ++valence[v];
   std::int32_t count = 0;
   for (std::int32_t v = 0; v < valence.size(); ++v) count += !mesh.border[v] && valence[v] != 4;
   return count;
 }
 
-double area_of(const QuadMesh& mesh) {
+double area_of(const remesh::QuadMesh& mesh) {
   double sum = 0;
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     const std::int32_t* c = &mesh.corner[4 * f];
@@ -163,7 +164,7 @@ TEST(FieldQuads, the_map_fits_at_every_seam) {
                                         : -a;
         return std::make_pair(map.u[left] - u, map.v[left] - v);
       };
-      const auto at_tail = moved(h, FluxSurface::next(g)), at_head = moved(FluxSurface::next(h), g);
+      const auto at_tail = moved(h, remesh::FluxSurface::next(g)), at_head = moved(remesh::FluxSurface::next(h), g);
       ASSERT_EQ(at_tail, at_head) << name << " half-edge " << h;
       ASSERT_EQ(at_tail.first & whole, 0) << name;
       ASSERT_EQ(at_tail.second & whole, 0) << name;
@@ -175,7 +176,7 @@ TEST(FieldQuads, the_map_fits_at_every_seam) {
 }
 
 // How many triangles of a map are turned over or flat, without those that have two corners at one place.
-std::int32_t turned_over(const FluxSurface& surface, const GridMap& map) {
+std::int32_t turned_over(const remesh::FluxSurface& surface, const GridMap& map) {
   std::int32_t count = 0;
   for (std::int32_t h = 0; h < 3 * surface.real_triangles; h += 3) {
     const auto side = [&](std::int32_t a, std::int32_t b) {
@@ -209,7 +210,7 @@ TEST(FieldQuads, a_map_is_untangled_but_where_singularities_share_a_place) {
 
 TEST(FieldQuads, untangling_finds_back_a_plane_whose_inside_is_scrambled) {
   const Stages stages(hf_test::make_core(hf_test::grid(14, 14)));
-  const FluxSurface& surface = stages.surface;
+  const remesh::FluxSurface& surface = stages.surface;
   Memory& memory = *stages.core->memory;
   const double length = 1.7 * norm(surface.position[surface.head(0)] - surface.position[surface.tail[0]]);
   const Vec3 origin = surface.position[surface.tail[0]];
@@ -217,8 +218,8 @@ TEST(FieldQuads, untangling_finds_back_a_plane_whose_inside_is_scrambled) {
       unit_vector(cross(surface.position[surface.tail[1]] - origin, surface.position[surface.tail[2]] - origin));
   const Vec3 x = unit_vector(surface.position[surface.tail[1]] - origin), y = cross(normal, x);
   for (const bool border : {true, false}) {
-    Table<Complex> z(surface.vertex_count(), Complex(0, 0), memory);
-    Table<std::uint8_t> whole(2 * surface.vertex_count(), 0, memory);
+    remesh::Table<Complex> z(surface.vertex_count(), Complex(0, 0), memory);
+    remesh::Table<std::uint8_t> whole(2 * surface.vertex_count(), 0, memory);
     std::uint32_t seed = 7;
     const auto draw = [&] { return (seed = 1664525 * seed + 1013904223) / 4294967296.0 - 0.5; };
     for (std::int32_t v = 0; v < surface.first_apex; ++v) {
@@ -238,7 +239,7 @@ TEST(FieldQuads, untangling_finds_back_a_plane_whose_inside_is_scrambled) {
         whole[2 * v + v % 2] = 1;  // one coordinate is free
       }
     }
-    const Table<Complex> given = z;
+    const remesh::Table<Complex> given = z;
     const auto count = [&] {
       std::int32_t turned = 0;
       for (std::int32_t t = 0; t < surface.real_triangles; ++t) {
@@ -412,20 +413,20 @@ TEST(FieldQuads, a_map_that_is_turned_over_has_crossings_that_cancel) {
   RepairReport report;
   repair_quads(stages.surface, quads, report, memory);
   EXPECT_GT(report.removed, 0);
-  check_quads(quads.mesh(memory), stages.surface.euler_characteristic, memory);
+  remesh::check_quads(quads.mesh(memory), stages.surface.euler_characteristic, memory);
 }
 
 // A torus of rows x columns quads, all at one place of a surface.
-QuadComplex torus_of(const FluxSurface& surface, std::int32_t rows, std::int32_t columns, Memory& memory) {
+QuadComplex torus_of(const remesh::FluxSurface& surface, std::int32_t rows, std::int32_t columns, Memory& memory) {
   QuadComplex out(memory);
   const std::int32_t count = rows * columns;
   out.twin.assign(4 * count, -1);
   out.tail.assign(4 * count, 0);
   out.feature.assign(4 * count, 0);
-  SurfacePoint point;
+  remesh::SurfacePoint point;
   point.triangle = 0;
   point.weight[0] = 1;
-  out.vertices.add_vertex(point, position_of(surface, point), QuadMesh::free, false, 1);
+  out.vertices.add_vertex(point, position_of(surface, point), remesh::QuadMesh::free, false, 1);
   for (std::int32_t i = 0; i < rows; ++i) {
     for (std::int32_t j = 0; j < columns; ++j) {
       const std::int32_t q = i * columns + j, right = i * columns + (j + 1) % columns,
@@ -442,15 +443,15 @@ QuadComplex torus_of(const FluxSurface& surface, std::int32_t rows, std::int32_t
 TEST(FieldQuads, quads_of_triangles_share_their_vertices_and_hold_the_border) {
   const auto core = core_of(samples::plane(6, 5));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
-  const Table<std::uint8_t> features = find_features(surface, 100, memory);
-  const QuadComplex quads = split_triangles(surface, features, Table<std::uint8_t>(1, 1, memory), memory);
+  const remesh::FluxSurface surface = remesh::FluxSurface::make(core->mesh, core->topology(), memory);
+  const remesh::Table<std::uint8_t> features = find_features(surface, 100, memory);
+  const QuadComplex quads = split_triangles(surface, features, remesh::Table<std::uint8_t>(1, 1, memory), memory);
   EXPECT_EQ(quads.quad_count(), 3 * surface.real_triangles);
   EXPECT_EQ(quads.vertices.position.size(),
             core->mesh.vertex_count() + core->topology().edge_count() + core->mesh.triangle_count());
   std::int32_t at_border = 0;
   for (std::int32_t v = 0; v < quads.vertices.position.size(); ++v) {
-    EXPECT_EQ(quads.vertices.pinned[v] == QuadMesh::feature, quads.vertices.border[v] != 0) << v;
+    EXPECT_EQ(quads.vertices.pinned[v] == remesh::QuadMesh::feature, quads.vertices.border[v] != 0) << v;
     at_border += quads.vertices.border[v] != 0;
   }
   EXPECT_GT(at_border, 20);
@@ -460,26 +461,26 @@ TEST(FieldQuads, quads_of_triangles_share_their_vertices_and_hold_the_border) {
 TEST(FieldQuads, the_check_refuses_each_fault) {
   Memory memory;
   const auto cube = [&] {
-    QuadMesh mesh(memory);
+    remesh::QuadMesh mesh(memory);
     for (int v = 0; v < 8; ++v) mesh.add_vertex({}, {v & 1 ? 1.0 : 0, v & 2 ? 1.0 : 0, v & 4 ? 1.0 : 0}, 0, false, 1);
     for (const int v : {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5})
       mesh.corner.push_back(v);
     return mesh;
   };
-  const auto is_refused = [&](const QuadMesh& mesh, std::int32_t euler_characteristic) {
+  const auto is_refused = [&](const remesh::QuadMesh& mesh, std::int32_t euler_characteristic) {
     try {
-      check_quads(mesh, euler_characteristic, memory);
+      remesh::check_quads(mesh, euler_characteristic, memory);
     } catch (const Error& error) {
       return error.code() == HF_ERROR_INTERNAL;
     }
     return false;
   };
-  QuadMesh mesh = cube();
+  remesh::QuadMesh mesh = cube();
   EXPECT_FALSE(is_refused(mesh, 2));
   EXPECT_TRUE(is_refused(mesh, 1)) << "another Euler characteristic";
   std::swap(mesh.corner[1], mesh.corner[3]);
   EXPECT_TRUE(is_refused(mesh, 2)) << "a face that is turned over";
-  QuadMesh twice(memory);  // each directed edge once, and the Euler characteristic is right
+  remesh::QuadMesh twice(memory);  // each directed edge once, and the Euler characteristic is right
   for (int v = 0; v < 3; ++v) twice.add_vertex({}, {1.0 * v, 0, 0}, 0, false, 1);
   for (const int v : {0, 1, 0, 2}) twice.corner.push_back(v);
   EXPECT_TRUE(is_refused(twice, 2)) << "a corner twice";
@@ -491,7 +492,7 @@ TEST(FieldQuads, the_check_refuses_each_fault) {
 TEST(FieldQuads, one_or_two_edges_around_a_thin_part_become_three) {
   const auto core = core_of(samples::sphere(8));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
+  const remesh::FluxSurface surface = remesh::FluxSurface::make(core->mesh, core->topology(), memory);
   for (const std::int32_t columns : {1, 2, 3}) {
     QuadComplex quads = torus_of(surface, 6, columns, memory);
     EXPECT_EQ(quads.vertices.position.size(), 6 * columns);
@@ -499,30 +500,30 @@ TEST(FieldQuads, one_or_two_edges_around_a_thin_part_become_three) {
     repair_quads(surface, quads, report, memory);
     EXPECT_EQ(report.removed, 0);
     EXPECT_EQ(report.added > 0, columns < 3) << columns;
-    check_quads(quads.mesh(memory), 0, memory);
+    remesh::check_quads(quads.mesh(memory), 0, memory);
   }
 }
 
 TEST(FieldQuads, chords_are_removed_until_the_number_is_reached_or_rings_of_four_are_left) {
   const auto core = core_of(samples::sphere(8));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
+  const remesh::FluxSurface surface = remesh::FluxSurface::make(core->mesh, core->topology(), memory);
   QuadComplex quads = torus_of(surface, 12, 8, memory);
   collapse_chords(quads, 64, 0, memory);
   EXPECT_LE(quads.quad_count(), 64);
   EXPECT_GE(quads.quad_count(), 64 - 12);
-  check_quads(quads.mesh(memory), 0, memory);
+  remesh::check_quads(quads.mesh(memory), 0, memory);
   collapse_chords(quads, 0, 0, memory);
   EXPECT_EQ(quads.quad_count(), 16);
-  check_quads(quads.mesh(memory), 0, memory);
+  remesh::check_quads(quads.mesh(memory), 0, memory);
 }
 
 TEST(FieldQuads, chords_go_where_the_mesh_stays_valid_only) {
   for (const auto& [name, core] : shapes()) {
     Memory& memory = *core->memory;
-    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
-    const Table<std::uint8_t> all(surface.component_count, 1, memory);
-    const Table<std::uint8_t> features(surface.half_count(), 0, memory);
+    const remesh::FluxSurface surface = remesh::FluxSurface::make(core->mesh, core->topology(), memory);
+    const remesh::Table<std::uint8_t> all(surface.component_count, 1, memory);
+    const remesh::Table<std::uint8_t> features(surface.half_count(), 0, memory);
     QuadComplex quads = split_triangles(surface, features, all, memory);
     EXPECT_EQ(quads.quad_count(), 3 * surface.real_triangles) << name;
     expect_valid(*core, quads.mesh(memory), name);
@@ -566,9 +567,9 @@ TEST(FieldQuads, chords_beside_hubs_leave_valid_meshes_too) {
   meshes.emplace_back("three rings", core_of(fan_of(300, 3)));
   for (const auto& [name, core] : meshes) {
     Memory& memory = *core->memory;
-    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
-    const Table<std::uint8_t> all(surface.component_count, 1, memory);
-    const Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
+    const remesh::FluxSurface surface = remesh::FluxSurface::make(core->mesh, core->topology(), memory);
+    const remesh::Table<std::uint8_t> all(surface.component_count, 1, memory);
+    const remesh::Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
     std::int32_t removed[2] = {0, 0};
     // With a limit of 3 most vertices are hubs, so that what the whole walk refuses is refused without it as well.
     // The quick form leaves out what lies between.

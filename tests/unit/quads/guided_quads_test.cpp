@@ -17,14 +17,15 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::quads;
 
-std::shared_ptr<const Core> core_of(const samples::ShapeMesh& shape) {
+std::shared_ptr<const surface::Core> core_of(const samples::ShapeMesh& shape) {
   return hf_test::make_core({shape.positions, shape.triangles});
 }
 
 // The mean angle between a direction and the nearest side of the quads, at the vertices that `near` takes.
 template <class Near>
-double angle_off(const QuadMesh& mesh, Vec3 direction, Near near) {
+double angle_off(const remesh::QuadMesh& mesh, Vec3 direction, Near near) {
   double sum = 0, count = 0;
   for (std::int32_t f = 0; f < mesh.face_count(); ++f) {
     for (int k = 0; k < 4; ++k) {
@@ -39,7 +40,7 @@ double angle_off(const QuadMesh& mesh, Vec3 direction, Near near) {
   return sum / count;
 }
 
-std::vector<QuadGuide> stroke(const Core& core, Vec3 direction, double weight) {
+std::vector<QuadGuide> stroke(const surface::Core& core, Vec3 direction, double weight) {
   std::vector<QuadGuide> out;
   for (Index v = 0; v < core.size(); ++v) {
     const Vec3 p = core.mesh.positions[at(v)];
@@ -69,7 +70,7 @@ TEST(GuidedQuads, edges_follow_guides_as_their_weight_says) {
   for (int i = 0; i < 2; ++i) {
     const std::vector<QuadGuide> guides = stroke(*core, (i ? 1e-200 : 7.0) * slanting, i ? 0.3 : 1.0);
     options.guides = {guides.data(), guides.size()};
-    const QuadMesh mesh = make_field_quads(options).mesh;
+    const remesh::QuadMesh mesh = make_field_quads(options).mesh;
     hf_test::expect_manifold(*core, mesh, "guided");
     off[i] = angle_off(mesh, slanting, near);
   }
@@ -90,7 +91,7 @@ TEST(GuidedQuads, guides_of_one_vertex_are_averaged_and_opposite_ones_cancel) {
   FieldQuadOptions options;
   options.core = core;
   options.faces = 400;
-  const QuadMesh plain = make_field_quads(options).mesh;
+  const remesh::QuadMesh plain = make_field_quads(options).mesh;
   const auto with = [&](std::initializer_list<Vec3> directions) {
     std::vector<QuadGuide> guides;
     for (const Vec3& d : directions) {
@@ -101,12 +102,12 @@ TEST(GuidedQuads, guides_of_one_vertex_are_averaged_and_opposite_ones_cancel) {
   };
   const Vec3 a = unit_vector(x), b = unit_vector(y);
   // A direction, the opposite one and both across are one cross.
-  const QuadMesh once = with({a + 0.4 * b}), again = with({a + 0.4 * b, -1 * (a + 0.4 * b), b + -0.4 * a});
+  const remesh::QuadMesh once = with({a + 0.4 * b}), again = with({a + 0.4 * b, -1 * (a + 0.4 * b), b + -0.4 * a});
   ASSERT_EQ(once.position.size(), again.position.size());
   for (std::int32_t v = 0; v < once.position.size(); ++v)
     EXPECT_LT(norm(once.position[v] - again.position[v]), 1e-9) << v;
   // Two crosses at 45 degrees leave the vertex as it was without guides, but that the curvature loses its say.
-  const QuadMesh none_left = with({a, a + b});
+  const remesh::QuadMesh none_left = with({a, a + b});
   EXPECT_EQ(none_left.face_count(), plain.face_count());
 }
 
@@ -130,7 +131,7 @@ TEST(GuidedQuads, a_guide_that_stands_on_the_surface_is_refused) {
 
 TEST(GuidedQuads, crease_edges_of_any_angle_become_edges_of_quads) {
   const auto core = core_of(samples::plane(25, 25));
-  const Mesh& mesh = core->mesh;
+  const mesh::Mesh& mesh = core->mesh;
   const Vec3 x = unit_vector(mesh.positions[1] - mesh.positions[0]);
   const auto in_middle = [&](Vec3 a, Vec3 b) { return std::fabs(dot(a, x)) < 1e-9 && std::fabs(dot(b, x)) < 1e-9; };
   std::vector<Index> creases;
@@ -142,7 +143,7 @@ TEST(GuidedQuads, crease_edges_of_any_angle_become_edges_of_quads) {
   FieldQuadOptions options;
   options.core = core;
   options.faces = 169;  // an odd number of columns, so that no line lies there by itself
-  const auto covered = [&](const QuadMesh& quads) {
+  const auto covered = [&](const remesh::QuadMesh& quads) {
     double length = 0;
     for (std::int32_t i = 0; i < quads.corner.size(); ++i) {
       const Vec3 a = quads.position[quads.corner[i]], b = quads.position[quads.corner[i % 4 == 3 ? i - 3 : i + 1]];
@@ -155,21 +156,21 @@ TEST(GuidedQuads, crease_edges_of_any_angle_become_edges_of_quads) {
   for (const Index e : creases)
     height += norm(mesh.positions[at(core->topology().second(e))] - mesh.positions[at(core->topology().first(e))]);
   options.crease_edges = {creases.data(), creases.size()};
-  const QuadMesh kept = make_field_quads(options).mesh;
+  const remesh::QuadMesh kept = make_field_quads(options).mesh;
   hf_test::expect_manifold(*core, kept, "kept");
   EXPECT_NEAR(covered(kept), height, 1e-9);
 }
 
 // The plane is through a point of the caller's frame.
-MirrorPlane plane_of(const Core& core, Vec3 normal, double offset) {
-  MirrorPlane plane;
+mesh::MirrorPlane plane_of(const surface::Core& core, Vec3 normal, double offset) {
+  mesh::MirrorPlane plane;
   plane.normal = unit_vector(normal);
   plane.offset = (offset - dot(plane.normal, core.mesh.centre)) / core.mesh.scale;
   return plane;
 }
 
 // Every vertex and every face has its mirror image, which is turned over.
-void expect_symmetric(const QuadMesh& mesh, const MirrorPlane& plane, const std::string& what) {
+void expect_symmetric(const remesh::QuadMesh& mesh, const mesh::MirrorPlane& plane, const std::string& what) {
   std::vector<std::pair<std::array<double, 3>, std::int32_t>> sorted;
   std::vector<std::int32_t> image(static_cast<std::size_t>(mesh.position.size()), -1);
   for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
@@ -196,9 +197,10 @@ void expect_symmetric(const QuadMesh& mesh, const MirrorPlane& plane, const std:
   }
 }
 
-void expect_near_surface(const Core& core, const QuadMesh& mesh, double most, const std::string& what) {
+void expect_near_surface(const surface::Core& core, const remesh::QuadMesh& mesh, double most,
+                         const std::string& what) {
   for (std::int32_t v = 0; v < mesh.position.size(); ++v) {
-    const SurfacePoint& point = mesh.location[v];
+    const remesh::SurfacePoint& point = mesh.location[v];
     Vec3 p;
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
@@ -214,7 +216,7 @@ void expect_near_surface(const Core& core, const QuadMesh& mesh, double most, co
 TEST(SymmetricQuads, quads_of_symmetric_surfaces_are_their_own_image) {
   struct Case {
     std::string name;
-    std::shared_ptr<const Core> core;
+    std::shared_ptr<const surface::Core> core;
     Vec3 normal;
     double offset, off;
   };
@@ -265,13 +267,13 @@ TEST(SymmetricQuads, guides_and_creases_of_the_kept_side_count) {
     if (norm(p + middle) < 0.16) guides.push_back({v, x, 1, 0});
   }
   FieldQuadOptions options;
-  MirrorPlane plane;
+  mesh::MirrorPlane plane;
   plane.normal = x;
   options.core = core;
   options.faces = 900;
   options.plane = plane;
   options.guides = {guides.data(), guides.size()};
-  const QuadMesh mesh = make_field_quads(options).mesh;
+  const remesh::QuadMesh mesh = make_field_quads(options).mesh;
   expect_symmetric(mesh, plane, "guided");
   EXPECT_LT(angle_off(mesh, x + 0.6 * y, [&](Vec3 p) { return norm(p - middle) < 0.07; }), 8);
   EXPECT_LT(angle_off(mesh, x + -0.6 * y, [&](Vec3 p) { return norm(p + middle) < 0.07; }), 8);
@@ -279,7 +281,7 @@ TEST(SymmetricQuads, guides_and_creases_of_the_kept_side_count) {
 
 TEST(SymmetricQuads, the_two_sides_of_a_plane_make_the_surface) {
   const auto core = core_of(samples::jittered_torus(30, 20));
-  MirrorPlane plane = plane_of(*core, {1, 0, 2}, 0.1);
+  mesh::MirrorPlane plane = plane_of(*core, {1, 0, 2}, 0.1);
   double area[2] = {0, 0}, whole = 0;
   for (double& sum : area) {
     const HalfSurface half = HalfSurface::make(*core, plane);
@@ -300,7 +302,7 @@ TEST(SymmetricQuads, the_two_sides_of_a_plane_make_the_surface) {
 }
 
 TEST(SymmetricQuads, surfaces_without_that_symmetry_are_refused) {
-  const auto refusal = [](const std::shared_ptr<const Core>& core, Vec3 normal, double offset) {
+  const auto refusal = [](const std::shared_ptr<const surface::Core>& core, Vec3 normal, double offset) {
     FieldQuadOptions options;
     options.core = core;
     options.faces = 200;
@@ -335,7 +337,7 @@ TEST(SymmetricQuads, thin_parts_on_the_plane_keep_their_shape) {
       options.core = core;
       options.faces = wanted;
       options.plane = plane_of(*core, {1, 0, 0}, 0);
-      const QuadMesh quads = make_field_quads(options).mesh;
+      const remesh::QuadMesh quads = make_field_quads(options).mesh;
       hf_test::expect_manifold(*core, quads, what);
       expect_symmetric(quads, *options.plane, what);
       double low = 1e9, high = -1e9, width = 0;
@@ -356,7 +358,7 @@ TEST(SymmetricQuads, thin_parts_on_the_plane_keep_their_shape) {
 TEST(SymmetricQuads, quads_at_the_plane_go_or_get_a_row) {
   const auto core = core_of(samples::sphere(6));
   Memory& memory = *core->memory;
-  const NearestTriangle nearest(core->mesh.positions, core->mesh.corners, memory);
+  const mesh::NearestTriangle nearest(core->mesh.positions, core->mesh.corners, memory);
   const PlaceOnSurface place{*core, nearest};
   struct Case {
     std::string name;
@@ -391,14 +393,14 @@ TEST(SymmetricQuads, quads_at_the_plane_go_or_get_a_row) {
   std::vector<Case> all = cases;
   all.push_back(sheet);
   for (const Case& c : all) {
-    QuadMesh mesh(memory);
+    remesh::QuadMesh mesh(memory);
     for (std::int32_t v = 0; v < c.vertices; ++v)
-      mesh.add_vertex({}, {0, 0.1 * std::cos(0.7 * v), 0.1 * std::sin(0.7 * v)}, QuadMesh::feature, true, 1);
+      mesh.add_vertex({}, {0, 0.1 * std::cos(0.7 * v), 0.1 * std::sin(0.7 * v)}, remesh::QuadMesh::feature, true, 1);
     for (const std::int32_t v : c.corners) mesh.corner.push_back(v);
-    Table<std::uint8_t> on_plane(c.vertices, 1, memory);
+    remesh::Table<std::uint8_t> on_plane(c.vertices, 1, memory);
     for (const std::int32_t v : c.off_plane) on_plane[v] = 0;
     std::int32_t sides = -1;
-    MirrorPlane plane;
+    mesh::MirrorPlane plane;
     prepare_at_plane(mesh, on_plane, plane, place, sides, memory);
     EXPECT_EQ(mesh.face_count(), c.faces) << c.name;
     EXPECT_EQ(sides, c.sides) << c.name;

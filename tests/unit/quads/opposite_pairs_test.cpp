@@ -11,6 +11,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::quads;
 using Complex = std::complex<double>;
 
 constexpr double edge_length = 0.015;
@@ -38,7 +39,7 @@ struct BumpedRing {
           }
           return mesh;
         }())),
-        surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
+        surface(remesh::FluxSurface::make(core->mesh, core->topology(), *core->memory)),
         system(core, 4),
         smoother(system, 2 * edge_length),
         features(find_features(surface, 100, *core->memory)),
@@ -47,14 +48,14 @@ struct BumpedRing {
   std::vector<std::int32_t> index() {
     const FaceCross faces =
         FaceCross::make(surface, system.connection, smoother.smooth(wish, {}), features, SharpCorners(*core->memory),
-                        Table<std::complex<double>>(*core->memory), *core->memory);
+                        remesh::Table<std::complex<double>>(*core->memory), *core->memory);
     return {faces.index.begin(), faces.index.end()};
   }
-  std::shared_ptr<const Core> core;
-  FluxSurface surface;
-  DirectionMatrix system;
+  std::shared_ptr<const surface::Core> core;
+  remesh::FluxSurface surface;
+  field::DirectionMatrix system;
   CrossSmoother smoother;
-  Table<std::uint8_t> features;
+  remesh::Table<std::uint8_t> features;
   Vector<Complex> wish;
 };
 

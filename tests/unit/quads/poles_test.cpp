@@ -15,9 +15,10 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::quads;
 
 // The distance from a place to the nearest inner vertex of so many quads.
-double nearest_pole(const QuadMesh& mesh, Vec3 place, std::int32_t quads) {
+double nearest_pole(const remesh::QuadMesh& mesh, Vec3 place, std::int32_t quads) {
   std::vector<std::int32_t> valence(mesh.position.size(), 0);
   for (const std::int32_t v : mesh.corner) ++valence[v];
   double least = std::numeric_limits<double>::infinity();
@@ -27,13 +28,13 @@ double nearest_pole(const QuadMesh& mesh, Vec3 place, std::int32_t quads) {
   return least;
 }
 
-std::shared_ptr<const Core> torus() {
-  static const std::shared_ptr<const Core> core = hf_test::make_core(hf_test::torus(90, 45));
+std::shared_ptr<const surface::Core> torus() {
+  static const std::shared_ptr<const surface::Core> core = hf_test::make_core(hf_test::torus(90, 45));
   return core;
 }
 
-QuadMesh quads_with(const Core& core, std::shared_ptr<const Core> owner, const std::vector<QuadPole>& poles,
-                    double edge, std::int32_t relax = 0) {
+remesh::QuadMesh quads_with(const surface::Core& core, std::shared_ptr<const surface::Core> owner,
+                            const std::vector<QuadPole>& poles, double edge, std::int32_t relax = 0) {
   Vector<QuadGuide> guides(core.memory.get());
   add_pole_guides(core, {poles.data(), poles.size()}, edge, guides);
   FieldQuadOptions options;
@@ -46,12 +47,13 @@ QuadMesh quads_with(const Core& core, std::shared_ptr<const Core> owner, const s
 }
 
 // At how many of 12 places a vertex of so many quads lies, to a fiftieth of an edge.
-int held_places(const std::shared_ptr<const Core>& core, std::int32_t quads, double edge, std::int32_t relax = 0) {
+int held_places(const std::shared_ptr<const surface::Core>& core, std::int32_t quads, double edge,
+                std::int32_t relax = 0) {
   std::mt19937 random(3);
   int held = 0;
   for (int i = 0; i < 12; ++i) {
     const Vec3 place = core->mesh.positions[random() % core->mesh.positions.size()];
-    const QuadMesh mesh = quads_with(*core, core, {{place, quads, {}}}, edge, relax);
+    const remesh::QuadMesh mesh = quads_with(*core, core, {{place, quads, {}}}, edge, relax);
     held += nearest_pole(mesh, place, quads) < 0.02 * edge;
   }
   return held;
@@ -76,7 +78,7 @@ TEST(Poles, GuidesMakeAQuarterTurnAndBeginAlongTheDirection) {
   const auto core = torus();
   for (const std::int32_t quads : {3, 5}) {
     const Vec3 place = core->mesh.positions[700];
-    const Vec3 up = vertex_normal(core->mesh, core->topology(), 700);
+    const Vec3 up = field::vertex_normal(core->mesh, core->topology(), 700);
     const Vec3 direction = cross(up, Vec3{0.2, 0.7, 0.4});
     Vector<QuadGuide> guides(core->memory.get());
     const QuadPole pole{place, quads, direction};
@@ -91,14 +93,14 @@ TEST(Poles, GuidesMakeAQuarterTurnAndBeginAlongTheDirection) {
       const double wanted = 0.25 * (4 - quads) * at_arm;
       const double found = std::atan2(dot(guide.vector, y), dot(guide.vector, x));
       EXPECT_NEAR(std::remainder(found - wanted, 2 * std::acos(-1.0)), 0, 0.2);
-      EXPECT_NEAR(dot(guide.vector, vertex_normal(core->mesh, core->topology(), guide.vertex)), 0, 1e-9);
+      EXPECT_NEAR(dot(guide.vector, field::vertex_normal(core->mesh, core->topology(), guide.vertex)), 0, 1e-9);
     }
   }
 }
 
 TEST(Poles, APlaceBesideTheSurfaceIsTakenOntoIt) {
   const auto core = torus();
-  const Vec3 place = core->mesh.positions[900], up = vertex_normal(core->mesh, core->topology(), 900);
+  const Vec3 place = core->mesh.positions[900], up = field::vertex_normal(core->mesh, core->topology(), 900);
   Vector<QuadGuide> on(core->memory.get()), beside(core->memory.get());
   const QuadPole first{place, 3, {1, 0, 0}}, second{place + 0.01 * up, 3, {1, 0, 0}};
   add_pole_guides(*core, {&first, 1}, 0.04, on);

@@ -17,6 +17,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::quads;
 
 constexpr double turn = 6.283185307179586476925286766559;
 // Edges of quads that have no room beside another in any tooth.
@@ -67,7 +68,7 @@ struct Figures {
   double aspect = 0;  // longest over shortest edge: 95 of 100 quads have less
 };
 
-Figures figures_of(const QuadMesh& mesh) {
+Figures figures_of(const remesh::QuadMesh& mesh) {
   Figures out;
   std::vector<std::int32_t> valence(static_cast<std::size_t>(mesh.position.size()));
   std::vector<double> aspect;
@@ -90,7 +91,8 @@ Figures figures_of(const QuadMesh& mesh) {
   return out;
 }
 
-QuadMesh quads_of(const std::shared_ptr<const Core>& core, std::int32_t faces, FieldQuadReport& report) {
+remesh::QuadMesh quads_of(const std::shared_ptr<const surface::Core>& core, std::int32_t faces,
+                          FieldQuadReport& report) {
   FieldQuadOptions options;
   options.core = core;
   options.faces = faces;
@@ -123,12 +125,12 @@ TEST(SharpCorners, thin_teeth_keep_their_creases_from_quads_as_wide_as_a_tooth_t
   if (std::getenv("HF_FULL_TESTS")) counts = {1500, 2000, 2600, 2900, 4000, 9000};
   for (const std::int32_t faces : counts) {
     FieldQuadReport report;
-    const QuadMesh mesh = quads_of(core, faces, report);
+    const remesh::QuadMesh mesh = quads_of(core, faces, report);
     const Figures found = figures_of(mesh);
     EXPECT_EQ(report.substitutes, 0) << faces;
     EXPECT_EQ(found.turned_over, 0) << faces;
     EXPECT_LE(found.most_valence, 6) << faces;
-    EXPECT_EQ(faults_near(mesh, Vec3{}, 1, memory).crossing, 0) << faces;
+    EXPECT_EQ(remesh::faults_near(mesh, Vec3{}, 1, memory).crossing, 0) << faces;
     for (const int tooth : {0, 7, 13, 39}) {
       const Vec3 tip{std::cos(turn * tooth / 40), std::sin(turn * tooth / 40), 0.25};
       double nearest = HUGE_VAL;
@@ -175,8 +177,8 @@ TEST(SharpCorners, crosses_stay_turned_only_where_two_quads_have_no_room) {
   wedge.triangles.insert(wedge.triangles.end(), {0, below, below + 1, 0, below + 1, 1});
   Memory memory;
   const auto core = hf_test::make_core(wedge);
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
-  const Table<std::uint8_t> features = find_features(surface, turn / 12, memory);
+  const remesh::FluxSurface surface = remesh::FluxSurface::make(core->mesh, core->topology(), memory);
+  const remesh::Table<std::uint8_t> features = find_features(surface, turn / 12, memory);
   for (const double length : {0.5, 3.0}) {
     const SharpCorners corners = SharpCorners::find(surface, features, length / core->mesh.scale, memory);
     ASSERT_EQ(corners.count, 1);
@@ -188,7 +190,7 @@ TEST(SharpCorners, crosses_stay_turned_only_where_two_quads_have_no_room) {
       const double begin = std::min(distance(surface.tail[h]), distance(surface.head(h)));
       // Two quads of 0.5 have room from 0.5 / sin(12 degrees) = 2.4 on, and two of 3 nowhere in the wedge.
       bool on_top = true;
-      for (const std::int32_t k : {h, FluxSurface::next(h), FluxSurface::previous(h)})
+      for (const std::int32_t k : {h, remesh::FluxSurface::next(h), remesh::FluxSurface::previous(h)})
         on_top &= core->mesh.to_given(surface.position[surface.tail[k]]).z > -0.5;
       const bool turned = on_top && features[h] && surface.is_real(surface.twin[h]) && begin < (length < 1 ? 3 : 10);
       EXPECT_EQ(corners.turn[h] != 0, turned) << length << ", from " << begin;
@@ -199,9 +201,9 @@ TEST(SharpCorners, crosses_stay_turned_only_where_two_quads_have_no_room) {
 TEST(SharpCorners, each_side_of_a_crease_at_a_tip_has_its_own_cross) {
   Memory memory;
   const auto core = hf_test::make_core(saw(40));
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
-  const Connection connection = Connection::make(core->mesh, core->topology(), memory);
-  const Table<std::uint8_t> features = find_features(surface, turn / 12, memory);
+  const remesh::FluxSurface surface = remesh::FluxSurface::make(core->mesh, core->topology(), memory);
+  const field::Connection connection = field::Connection::make(core->mesh, core->topology(), memory);
+  const remesh::Table<std::uint8_t> features = find_features(surface, turn / 12, memory);
   const SharpCorners corners = SharpCorners::find(surface, features, 0.05, memory);
   Vector<HardCross> hard = feature_crosses(*core, surface, connection, features, corners, 2);
   const SideCrosses sides = SideCrosses::find(surface, connection, features, corners, hard, memory);
@@ -213,12 +215,12 @@ TEST(SharpCorners, each_side_of_a_crease_at_a_tip_has_its_own_cross) {
     ASSERT_NE(sides.of_corner[h], std::complex<double>(0, 0));
     // In the plane of the triangle, the cross at the tail stands as far from the edge as the corner says.
     const Vec3 a = surface.position[surface.tail[h]], edge = unit_vector(surface.position[surface.head(h)] - a),
-               normal = unit_vector(cross(edge, surface.position[surface.tail[FluxSurface::previous(h)]] - a));
+               normal = unit_vector(cross(edge, surface.position[surface.tail[remesh::FluxSurface::previous(h)]] - a));
     const Index v = surface.mesh_vertex[surface.tail[h]];
     const std::complex<double> arm = std::polar(1.0, std::arg(sides.of_corner[h]) / 4);
     // A triangle may face away from the normal of a vertex as sharp as this.
     const Vec3 own = connection.normal[static_cast<std::size_t>(v)];
-    const Vec3 seen = carry(connection.to_space(v, arm), own, dot(own, normal) < 0 ? -1.0 * normal : normal);
+    const Vec3 seen = field::carry(connection.to_space(v, arm), own, dot(own, normal) < 0 ? -1.0 * normal : normal);
     const double angle = std::atan2(dot(seen, cross(normal, edge)), dot(seen, edge)) - corners.turn[h];
     EXPECT_NEAR(std::remainder(angle, turn / 4), 0, 1e-9) << h;
     turned += corners.turn[h] != 0;
@@ -232,8 +234,8 @@ TEST(SharpCorners, a_corner_below_45_degrees_is_opened_to_a_right_angle) {
   Memory memory;
   for (const std::uint32_t teeth : {12u, 40u}) {
     const auto core = hf_test::make_core(saw(teeth, true));
-    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
-    const Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
+    const remesh::FluxSurface surface = remesh::FluxSurface::make(core->mesh, core->topology(), memory);
+    const remesh::Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
     const SharpCorners corners = SharpCorners::find(surface, features, coarse, memory);
     EXPECT_EQ(corners.count, teeth == 12 ? 0 : static_cast<std::int32_t>(teeth));
     if (corners.empty()) continue;

@@ -16,10 +16,11 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::quads;
 
 // A plane of n x n squares, without those that `gone` names.
 template <class Gone>
-std::shared_ptr<const Core> sheet(std::uint32_t n, Gone gone) {
+std::shared_ptr<const surface::Core> sheet(std::uint32_t n, Gone gone) {
   hf_test::PlainMesh mesh = hf_test::grid(n, n, 1, 0.2);
   std::vector<std::uint32_t> kept;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
@@ -33,7 +34,8 @@ std::shared_ptr<const Core> sheet(std::uint32_t n, Gone gone) {
 }
 
 // Quads without a substitute: no component got quads of shorter edges, or of its triangles.
-QuadMesh quads_of(const std::shared_ptr<const Core>& core, std::int32_t faces, const std::string& what) {
+remesh::QuadMesh quads_of(const std::shared_ptr<const surface::Core>& core, std::int32_t faces,
+                          const std::string& what) {
   FieldQuadOptions options;
   options.core = core;
   options.faces = faces;
@@ -46,7 +48,7 @@ QuadMesh quads_of(const std::shared_ptr<const Core>& core, std::int32_t faces, c
 }
 
 // The lengths of the borders, in the caller's unit, the shortest first.
-std::vector<double> border_loops(const QuadMesh& mesh, double scale) {
+std::vector<double> border_loops(const remesh::QuadMesh& mesh, double scale) {
   std::map<std::int32_t, std::int32_t> next;
   std::map<std::pair<std::int32_t, std::int32_t>, bool> directed;
   for (std::int32_t i = 0; i < mesh.corner.size(); ++i)
@@ -76,7 +78,7 @@ TEST(SmallParts, holes_that_no_line_crosses_are_open) {
     const auto core = sheet(24, [&](std::uint32_t x, std::uint32_t y) {
       return (x == place && y == 11) || (x == 3 && y == place) || (x == 18 && y == 19);
     });
-    const QuadMesh mesh = quads_of(core, 36, "holes at " + std::to_string(place));
+    const remesh::QuadMesh mesh = quads_of(core, 36, "holes at " + std::to_string(place));
     const std::vector<double> loops = border_loops(mesh, core->mesh.scale);
     ASSERT_EQ(loops.size(), 4u);
     for (int i = 0; i < 3; ++i) EXPECT_GT(loops[static_cast<std::size_t>(i)], 1.5);  // 4, with cut corners
@@ -88,7 +90,7 @@ TEST(SmallParts, walls_between_holes_stay) {
     const auto core = sheet(24, [&](std::uint32_t x, std::uint32_t y) {
       return y > 6 && y < 17 && ((x > 4 && x < place) || (x > place && x < 20));
     });
-    const QuadMesh mesh = quads_of(core, 40, "wall at " + std::to_string(place));
+    const remesh::QuadMesh mesh = quads_of(core, 40, "wall at " + std::to_string(place));
     EXPECT_EQ(border_loops(mesh, core->mesh.scale).size(), 3u);
   }
 }
@@ -111,7 +113,7 @@ TEST(SmallParts, narrow_ends_stay_open) {
       }
     }
     const auto core = hf_test::make_core(mesh);
-    const QuadMesh quads = quads_of(core, 80, "cone " + std::to_string(radius));
+    const remesh::QuadMesh quads = quads_of(core, 80, "cone " + std::to_string(radius));
     const std::vector<double> loops = border_loops(quads, core->mesh.scale);
     ASSERT_EQ(loops.size(), 2u);
     EXPECT_GT(loops[0], 0.6 * 2 * std::acos(-1.0) * radius);
@@ -130,15 +132,15 @@ struct Extent {
 TEST(SmallParts, limbs_that_few_lines_run_round_are_kept) {
   const samples::ShapeMesh shape = samples::welded_surface(hf_test::creature("horse", 3000));
   const auto core = hf_test::make_core({shape.positions, shape.triangles});
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), *core->memory);
-  const QuadDistance distance(surface, 0.01, *core->memory);
+  const remesh::FluxSurface surface = remesh::FluxSurface::make(core->mesh, core->topology(), *core->memory);
+  const remesh::QuadDistance distance(surface, 0.01, *core->memory);
   for (const auto& [length, rounds] : {std::pair(0.026, 20), {0.03, 20}, {0.03, 60}}) {
     FieldQuadOptions options;
     options.core = core;
     options.edge_length = length;
     options.relax = rounds;
     FieldQuadReport report;
-    const QuadMesh mesh = make_field_quads(options, &report).mesh;
+    const remesh::QuadMesh mesh = make_field_quads(options, &report).mesh;
     hf_test::expect_manifold(*core, mesh, "horse");
     const double off = distance.measure(mesh, 0, nullptr) / length;
     std::printf("edges of %.3f: %d quads, %.2f edges off\n", length, mesh.face_count(), off);
@@ -224,7 +226,7 @@ TEST(SmallParts, rods_and_specks_keep_their_extent) {
     FieldQuadOptions options;
     options.core = core;
     options.faces = faces;
-    const QuadMesh quads = make_field_quads(options).mesh;
+    const remesh::QuadMesh quads = make_field_quads(options).mesh;
     const std::string what = std::to_string(faces) + " faces";
     hf_test::expect_manifold(*core, quads, what);
     std::vector<Extent> was(extents.size()), is(extents.size());
@@ -273,7 +275,7 @@ TEST(SmallParts, rods_in_sleeves_keep_their_length) {
       FieldQuadOptions options;
       options.core = core;
       options.faces = faces;
-      const QuadMesh quads = make_field_quads(options).mesh;
+      const remesh::QuadMesh quads = make_field_quads(options).mesh;
       Extent rod;
       for (std::int32_t v = 0; v < quads.position.size(); ++v) {
         if (core->mesh.component[at(core->mesh.triangle(quads.location[v].triangle)[0])] == 1)

@@ -21,6 +21,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::remesh;
 
 hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
 
@@ -30,15 +31,15 @@ struct Made {
       : core(hf_test::make_core(mesh)),
         surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
         result([&] {
-          FieldQuadOptions options;
+          quads::FieldQuadOptions options;
           options.core = core;
           options.edge_length = edge_length;
           options.relax = relax;
-          return make_field_quads(options);
+          return quads::make_field_quads(options);
         }()) {}
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   FluxSurface surface;
-  QuadResult result;
+  quads::QuadResult result;
 };
 
 // From the faces alone.

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::remesh;
 
 hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positions, shape.triangles}; }
 
@@ -47,7 +48,7 @@ struct Flow {
     } while (h != surface.out[v]);
     return (out - in) / (out + in);
   }
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   Memory& memory;
   FluxSurface surface;
   std::vector<std::int32_t> sites;

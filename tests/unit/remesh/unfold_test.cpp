@@ -14,6 +14,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::remesh;
 
 constexpr double edge_length = 0.05;
 
@@ -23,11 +24,11 @@ struct Thrown {
         surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
         distance(surface, 0.25 * edge_length, *core->memory),
         mesh([&] {
-          FieldQuadOptions options;
+          quads::FieldQuadOptions options;
           options.core = core;
           options.edge_length = edge_length;
           options.relax = 20;
-          return make_field_quads(options).mesh;
+          return quads::make_field_quads(options).mesh;
         }()) {}
   // Moves every tenth vertex by up to an edge, so that quads turn over.
   void fold(std::uint8_t pin) {
@@ -54,7 +55,7 @@ struct Thrown {
     return count;
   }
   samples::ShapeMesh shape = samples::jittered_torus(60, 40);
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   FluxSurface surface;
   QuadDistance distance;
   QuadMesh mesh;
@@ -95,10 +96,10 @@ TEST(UnfoldQuads, FeaturesStayAndAMeshWithoutTurnedCornersKeepsItsBits) {
 TEST(UnfoldQuads, VerticesOfABorderSlideAlongIt) {
   const auto core = hf_test::make_core(hf_test::grid(20, 20));
   const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), *core->memory);
-  FieldQuadOptions options;
+  quads::FieldQuadOptions options;
   options.core = core;
   options.edge_length = edge_length;
-  QuadMesh mesh = make_field_quads(options).mesh;
+  QuadMesh mesh = quads::make_field_quads(options).mesh;
   const QuadDistance distance(surface, 0.25 * edge_length, *core->memory);
   const auto turned = [&] {
     std::int32_t count = 0;

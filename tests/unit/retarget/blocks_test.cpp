@@ -15,18 +15,18 @@ namespace hf_test {
 namespace {
 
 using hf_inner::Memory;
-using hf_inner::Retarget;
-using hf_inner::Turn;
+using hf_inner::retarget::Retarget;
+using hf_inner::retarget::Turn;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
 // Each vertex in a pose; the bodies are placed with turns of joints only at the pose.
-std::vector<Vec3> posed_points(const Rig& rig, const PlacedRig& placed, const hf_inner::CharacterInput& input,
+std::vector<Vec3> posed_points(const Rig& rig, const PlacedRig& placed, const hf_inner::skeleton::CharacterInput& input,
                                const std::vector<double>& pose) {
   const auto rest = world_of(placed.parents, rest_trs(input).data()), world = world_of(placed.parents, pose.data());
   const auto linear = [](const std::vector<double>& w, std::size_t j) {
     const double* p = &w[12 * j];
-    return hf_inner::Linear{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
+    return hf_inner::retarget::Linear{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
   };
   const auto place = [](const std::vector<double>& w, std::size_t j) {
     return Vec3{w[12 * j + 9], w[12 * j + 10], w[12 * j + 11]};
@@ -34,7 +34,7 @@ std::vector<Vec3> posed_points(const Rig& rig, const PlacedRig& placed, const hf
   std::vector<Vec3> out;
   for (std::size_t v = 0; v < rig.points.size(); ++v) {
     const auto j = static_cast<std::size_t>(rig.owners[v]);
-    out.push_back(linear(world, j) * hf_inner::solve(linear(rest, j), rig.points[v] - place(rest, j)) +
+    out.push_back(linear(world, j) * hf_inner::retarget::solve(linear(rest, j), rig.points[v] - place(rest, j)) +
                   place(world, j));
   }
   return out;
@@ -51,9 +51,9 @@ double lowest_of(const std::vector<Vec3>& points) {
 struct Blocks {
   Rig rig;
   std::unique_ptr<PlacedRig> placed;
-  hf_inner::CharacterInput input;
+  hf_inner::skeleton::CharacterInput input;
   Memory memory;
-  std::unique_ptr<hf_inner::Character> character;
+  std::unique_ptr<hf_inner::skeleton::Character> character;
 
   enum class More { none, elbows };
   explicit Blocks(double hang, double reach = 0.1, double spread = 0, More more = More::none) {
@@ -84,9 +84,9 @@ struct Blocks {
     }
     placed = std::make_unique<PlacedRig>(rig, Placing{});
     input = placed->input();
-    character = std::make_unique<hf_inner::Character>(know_character(input, memory));
+    character = std::make_unique<hf_inner::skeleton::Character>(know_character(input, memory));
   }
-  hf_inner::RetargetSide side() const { return {input, *character, nullptr}; }
+  hf_inner::retarget::RetargetSide side() const { return {input, *character, nullptr}; }
 
   std::vector<Vec3> posed(const std::vector<double>& pose) const { return posed_points(rig, *placed, input, pose); }
   // From the joint to the middle of its vertices.
@@ -109,7 +109,7 @@ struct Blocks {
 TEST(Blocks, ArmsOfOneBoneMeetByTheirVertices) {
   const Blocks source(0), target(70);
   Memory memory;
-  hf_inner::RetargetOptions options;
+  hf_inner::retarget::RetargetOptions options;
   options.copy_same = false;  // the joints are equal, the vertices are not
   Retarget retarget(source.side(), target.side(), options, memory);
   std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
@@ -123,7 +123,7 @@ TEST(Blocks, ArmsOfOneBoneMeetByTheirVertices) {
 TEST(Blocks, LegsWithoutFeetMeetByTheirVertices) {
   const Blocks source(0, 0.1, 1), target(0, 0.1, 15);
   Memory memory;
-  hf_inner::RetargetOptions options;
+  hf_inner::retarget::RetargetOptions options;
   options.copy_same = false;  // the joints are nearly equal
   Retarget retarget(source.side(), target.side(), options, memory);
   std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
@@ -137,7 +137,7 @@ TEST(Blocks, LegsWithoutFeetMeetByTheirVertices) {
 TEST(Blocks, LegsOfOneBoneMeetByTheirVertices) {
   const Blocks source(0), target(0, 0.1, -15);
   Memory memory;
-  hf_inner::RetargetOptions options;
+  hf_inner::retarget::RetargetOptions options;
   options.copy_same = false;  // the joints are equal
   Retarget retarget(source.side(), target.side(), options, memory);
   std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
@@ -155,7 +155,7 @@ void turn_joint(const Body& body, const std::string& name, Turn turn, std::vecto
   const auto world = world_of(body.placed->parents, pose.data());
   const auto turn_at = [&](std::size_t k) {
     const double* p = &world[12 * k];
-    return hf_inner::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
+    return hf_inner::retarget::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
   };
   const Turn q = inverse(turn_at(static_cast<std::size_t>(body.placed->parents[j]))) * (turn * turn_at(j));
   const double numbers[] = {q.x, q.y, q.z, q.w};
@@ -166,12 +166,12 @@ void turn_joint(const Body& body, const std::string& name, Turn turn, std::vecto
 TEST(Blocks, ALegOfOneBonePointsToTheEndOfTheLegItFollows) {
   const Blocks source(0, 0.1, 1e-9), target(0);
   Memory memory;
-  hf_inner::RetargetOptions options;
+  hf_inner::retarget::RetargetOptions options;
   options.goals = false;
   Retarget retarget(source.side(), target.side(), options, memory);
   std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
-  turn_joint(source, "leg.l", hf_inner::turn_about({1, 0, 0}, -40 * degree), pose);
-  turn_joint(source, "shin.l", hf_inner::turn_about({1, 0, 0}, 100 * degree), pose);
+  turn_joint(source, "leg.l", hf_inner::retarget::turn_about({1, 0, 0}, -40 * degree), pose);
+  turn_joint(source, "shin.l", hf_inner::retarget::turn_about({1, 0, 0}, 100 * degree), pose);
   retarget.frame(pose.data(), 0, out.data());
   const auto world = world_of(source.placed->parents, pose.data());
   const double* leg = &world[12 * static_cast<std::size_t>(source.rig.find("leg.l")) + 9];
@@ -185,12 +185,12 @@ TEST(Blocks, ALegOfOneBonePointsToTheEndOfTheLegItFollows) {
 TEST(Blocks, AnArmOfOneBonePointsToTheEndOfTheArmItFollows) {
   const Blocks source(0, 0.1, 0, Blocks::More::elbows), target(0);
   Memory memory;
-  hf_inner::RetargetOptions options;
+  hf_inner::retarget::RetargetOptions options;
   options.goals = false;
   Retarget retarget(source.side(), target.side(), options, memory);
   std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
-  turn_joint(source, "arm.l", hf_inner::turn_about({0, 1, 0}, 40 * degree), pose);
-  turn_joint(source, "fore.l", hf_inner::turn_about({0, 1, 0}, -100 * degree), pose);
+  turn_joint(source, "arm.l", hf_inner::retarget::turn_about({0, 1, 0}, 40 * degree), pose);
+  turn_joint(source, "fore.l", hf_inner::retarget::turn_about({0, 1, 0}, -100 * degree), pose);
   retarget.frame(pose.data(), 0, out.data());
   const auto world = world_of(source.placed->parents, pose.data());
   const double* arm = &world[12 * static_cast<std::size_t>(source.rig.find("arm.l")) + 9];
@@ -204,9 +204,9 @@ TEST(Blocks, AnArmOfOneBonePointsToTheEndOfTheArmItFollows) {
 struct Walker {
   Rig rig;
   std::unique_ptr<PlacedRig> placed;
-  hf_inner::CharacterInput input;
+  hf_inner::skeleton::CharacterInput input;
   Memory memory;
-  std::unique_ptr<hf_inner::Character> character;
+  std::unique_ptr<hf_inner::skeleton::Character> character;
 
   Walker(bool with_feet, const BodyShape& shape) {
     const Rig whole = make_biped("words", shape);
@@ -239,13 +239,13 @@ struct Walker {
   void place() {
     placed = std::make_unique<PlacedRig>(rig, Placing{});
     input = placed->input();
-    character = std::make_unique<hf_inner::Character>(know_character(input, memory));
+    character = std::make_unique<hf_inner::skeleton::Character>(know_character(input, memory));
   }
-  hf_inner::RetargetSide side() const { return {input, *character, nullptr}; }
+  hf_inner::retarget::RetargetSide side() const { return {input, *character, nullptr}; }
   Turn turn_of(const std::string& name, const std::vector<double>& pose) const {
     const auto world = world_of(placed->parents, pose.data());
     const double* p = &world[12 * static_cast<std::size_t>(rig.find(name))];
-    return hf_inner::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
+    return hf_inner::retarget::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
   }
 };
 
@@ -275,8 +275,8 @@ TEST(Walkers, ALegWithoutAFootTurnsAsTheSourceAndLiftsTheBody) {
   for (int f = 0; f <= 8; ++f) {
     const double angle = (f - 4) * 5 * degree;
     std::vector<double> pose = rest_trs(source.input);
-    turn_joint(source, "left_leg", hf_inner::turn_about({1, 0, 0}, angle), pose);
-    turn_joint(source, "right_leg", hf_inner::turn_about({1, 0, 0}, -angle), pose);
+    turn_joint(source, "left_leg", hf_inner::retarget::turn_about({1, 0, 0}, angle), pose);
+    turn_joint(source, "right_leg", hf_inner::retarget::turn_about({1, 0, 0}, -angle), pose);
     pose[1] -= lowest_of(posed_points(source.rig, *source.placed, source.input, pose));
     retarget.frame(pose.data(), f == 0 ? 0 : 0.1, out.data());
     EXPECT_GT(lowest_of(posed_points(target.rig, *target.placed, target.input, out)), -1e-6) << f;
@@ -295,13 +295,13 @@ TEST(Walkers, AControlInThePlaceOfTheAnkleIsNoBoneOfTheLeg) {
   for (const char* side : {"left", "right"}) source.add_heel(std::string(side) + "_foot");
   source.place();
   Memory memory;
-  hf_inner::RetargetOptions options;
+  hf_inner::retarget::RetargetOptions options;
   options.goals = false;
   Retarget retarget(source.side(), target.side(), options, memory);
   std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
-  turn_joint(source, "left_leg", hf_inner::turn_about({1, 0, 0}, -40 * degree), pose);
-  turn_joint(source, "left_knee", hf_inner::turn_about({1, 0, 0}, 70 * degree), pose);
-  turn_joint(source, "left_leg heel", hf_inner::turn_about({1, 0, 0}, -60 * degree), pose);
+  turn_joint(source, "left_leg", hf_inner::retarget::turn_about({1, 0, 0}, -40 * degree), pose);
+  turn_joint(source, "left_knee", hf_inner::retarget::turn_about({1, 0, 0}, 70 * degree), pose);
+  turn_joint(source, "left_leg heel", hf_inner::retarget::turn_about({1, 0, 0}, -60 * degree), pose);
   retarget.frame(pose.data(), 0, out.data());
   for (const auto& chain : retarget.report().chains) {
     if (chain.role == Role::leg) {
@@ -313,7 +313,7 @@ TEST(Walkers, AControlInThePlaceOfTheAnkleIsNoBoneOfTheLeg) {
 TEST(Blocks, LegsOfOneBoneLiftTheBodyOverTheGround) {
   const Blocks source(0), target(70, 0.4);
   Memory memory;
-  hf_inner::RetargetOptions options;
+  hf_inner::retarget::RetargetOptions options;
   options.copy_same = false;  // the joints are equal
   Retarget retarget(source.side(), target.side(), options, memory);
   std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
@@ -321,10 +321,10 @@ TEST(Blocks, LegsOfOneBoneLiftTheBodyOverTheGround) {
     const auto world = world_of(source.placed->parents, pose.data());
     const auto turn_at = [&](std::size_t j) {
       const double* p = &world[12 * j];
-      return hf_inner::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
+      return hf_inner::retarget::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
     };
     const Turn own = turn_at(static_cast<std::size_t>(source.rig.find(leg)));
-    const Turn turn = inverse(turn_at(0)) * (hf_inner::turn_about({1, 0, 0}, angle * degree) * own);
+    const Turn turn = inverse(turn_at(0)) * (hf_inner::retarget::turn_about({1, 0, 0}, angle * degree) * own);
     const double numbers[] = {turn.x, turn.y, turn.z, turn.w};
     std::copy(numbers, numbers + 4, &pose[10 * static_cast<std::size_t>(source.rig.find(leg)) + 3]);
   }

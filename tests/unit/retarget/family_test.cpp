@@ -12,7 +12,7 @@ namespace hf_test {
 namespace {
 
 using hf_inner::Memory;
-using hf_inner::Retarget;
+using hf_inner::retarget::Retarget;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
@@ -72,7 +72,7 @@ Faults play_by(const RigActor& source, const RigActor& target, const Play& frame
 
 Faults play(const RigActor& source, const RigActor& target) {
   Memory memory;
-  hf_inner::RetargetOptions options;
+  hf_inner::retarget::RetargetOptions options;
   options.copy_same = false;
   Retarget retarget(source.side(), target.side(), options, memory);
   Faults out = play_by(source, target,

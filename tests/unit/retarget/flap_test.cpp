@@ -12,13 +12,13 @@ namespace hf_test {
 namespace {
 
 using hf_inner::Memory;
-using hf_inner::Retarget;
+using hf_inner::retarget::Retarget;
 
 // A rig as it stands, and its character.
 struct Flyer {
   explicit Flyer(Rig given)
       : rig(std::move(given)), placed(rig, {}), input(placed.input()), character(know_character(input, memory)) {}
-  hf_inner::RetargetSide side() const { return {input, character, nullptr}; }
+  hf_inner::retarget::RetargetSide side() const { return {input, character, nullptr}; }
   // From a joint to the next one of its limb, in a pose.
   Vec3 way(const char* from, const char* to, const std::vector<double>& pose) const {
     const auto world = world_of(placed.parents, pose.data());
@@ -32,8 +32,8 @@ struct Flyer {
   Rig rig;
   Memory memory;
   PlacedRig placed;
-  hf_inner::CharacterInput input;
-  hf_inner::Character character;
+  hf_inner::skeleton::CharacterInput input;
+  hf_inner::skeleton::Character character;
 };
 
 // Turns a joint about an axis of its parent.

@@ -13,13 +13,13 @@ namespace hf_test {
 namespace {
 
 using hf_inner::Memory;
-using hf_inner::Retarget;
-using hf_inner::RetargetOptions;
-using hf_inner::Turn;
+using hf_inner::retarget::Retarget;
+using hf_inner::retarget::RetargetOptions;
+using hf_inner::retarget::Turn;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-hf_inner::Linear linear_at(const std::vector<double>& world, std::size_t j) {
+hf_inner::retarget::Linear linear_at(const std::vector<double>& world, std::size_t j) {
   const double* p = &world[12 * j];
   return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
 }
@@ -33,8 +33,9 @@ void turn_joint(const RigActor& actor, std::vector<double>& pose, const std::str
   const std::size_t j = static_cast<std::size_t>(actor.rig().find(name));
   const auto world = world_of(actor.parents(), pose.data());
   const int p = actor.parents()[j];
-  const Turn own = turn * hf_inner::turn_of(linear_at(world, j));
-  const Turn q = p < 0 ? own : inverse(hf_inner::turn_of(linear_at(world, static_cast<std::size_t>(p)))) * own;
+  const Turn own = turn * hf_inner::retarget::turn_of(linear_at(world, j));
+  const Turn q =
+      p < 0 ? own : inverse(hf_inner::retarget::turn_of(linear_at(world, static_cast<std::size_t>(p)))) * own;
   const double numbers[] = {q.x, q.y, q.z, q.w};
   std::copy(numbers, numbers + 4, &pose[10 * j + 3]);
 }
@@ -50,7 +51,7 @@ double lowest_of(const RigActor& actor, const std::vector<double>& pose, std::in
     if (std::find(roles.begin(), roles.end(), actor.rig().joints[j].role) == roles.end()) continue;
     const Vec3 p = actor.rig().points[v];  // the rig stands as it was made
     const Vec3 now =
-        linear_at(world, j) * hf_inner::solve(linear_at(rest, j), p - place_at(rest, j)) + place_at(world, j);
+        linear_at(world, j) * hf_inner::retarget::solve(linear_at(rest, j), p - place_at(rest, j)) + place_at(world, j);
     low = std::min(low, now.y - actor.side().character.ground);
   }
   return low / actor.height();
@@ -97,7 +98,7 @@ TEST(GroundVelocity, IsTheMostCommonVelocityOfTheSoles) {
     }
     double found[3] = {9, 9, 9};
     Memory memory;
-    hf_inner::find_ground_velocity(actor.side(), poses.data(), 29, 1.0 / 30, found, memory);
+    hf_inner::retarget::find_ground_velocity(actor.side(), poses.data(), 29, 1.0 / 30, found, memory);
     EXPECT_NEAR(found[0], times * often.x, 1e-9);
     EXPECT_NEAR(found[1], 0, 1e-9);
     EXPECT_NEAR(found[2], times * often.z, 1e-9);
@@ -112,8 +113,8 @@ TEST(Feet, ToesThatDragDoNotStretchALegThatLiftsThem) {
   while (low > 0.001 && bent > 0) {
     bent -= 1;
     pose = rest_trs(source.side().input);
-    turn_joint(source, pose, "mixamorig:RightUpLeg", hf_inner::turn_about({1, 0, 0}, -90 * degree));
-    turn_joint(source, pose, "mixamorig:LeftLeg", hf_inner::turn_about({1, 0, 0}, bent * degree));
+    turn_joint(source, pose, "mixamorig:RightUpLeg", hf_inner::retarget::turn_about({1, 0, 0}, -90 * degree));
+    turn_joint(source, pose, "mixamorig:LeftLeg", hf_inner::retarget::turn_about({1, 0, 0}, bent * degree));
     low = lowest_of(source, pose, {Role::foot, Role::toe});
   }
   ASSERT_GT(bent, 40);
@@ -138,7 +139,7 @@ TEST(Feet, ThatHoverStandOnTheScaledPath) {
     bent -= 1;
     pose = rest_trs(source.side().input);
     for (const char* leg : {"mixamorig:RightLeg", "mixamorig:LeftLeg"})
-      turn_joint(source, pose, leg, hf_inner::turn_about({1, 0, 0}, bent * degree));
+      turn_joint(source, pose, leg, hf_inner::retarget::turn_about({1, 0, 0}, bent * degree));
     low = lowest_of(source, pose, {Role::foot, Role::toe});
   }
   ASSERT_GT(bent, 40);
@@ -182,7 +183,7 @@ TEST(Feet, OnTheScaledPathStayWhereTheyStand) {
   for (int f = 0; f < 8; ++f) {
     std::vector<double> pose = rest_trs(source.side().input);
     for (const char* leg : {"mixamorig:RightLeg", "mixamorig:LeftLeg"})
-      turn_joint(source, pose, leg, hf_inner::turn_about({1, 0, 0}, (70 - 3 * f) * degree));
+      turn_joint(source, pose, leg, hf_inner::retarget::turn_about({1, 0, 0}, (70 - 3 * f) * degree));
     pose[10 * hips + 1] -= lowest_of(source, pose, {Role::foot, Role::toe}) * source.height();
     if (f > 0) pose[10 * hips + 2] += by[0].z - toe(source, pose).z;
     std::vector<double> out(10 * target.parents().size());
@@ -228,8 +229,8 @@ TEST(Feet, ALegDoesNotFoldIntoItsHip) {
   const auto world = world_of(source.parents(), pose.data());
   const double hip = place_at(world, static_cast<std::size_t>(source.rig().find("mixamorig:LeftUpLeg"))).y;
   for (const char* side : {"mixamorig:Left", "mixamorig:Right"}) {
-    turn_joint(source, pose, std::string(side) + "UpLeg", hf_inner::turn_about({1, 0, 0}, -75 * degree));
-    turn_joint(source, pose, std::string(side) + "Leg", hf_inner::turn_about({1, 0, 0}, 150 * degree));
+    turn_joint(source, pose, std::string(side) + "UpLeg", hf_inner::retarget::turn_about({1, 0, 0}, -75 * degree));
+    turn_joint(source, pose, std::string(side) + "Leg", hf_inner::retarget::turn_about({1, 0, 0}, 150 * degree));
   }
   pose[10 * static_cast<std::size_t>(source.rig().find("mixamorig:Hips")) + 1] -= 0.93 * hip;
   Memory memory;
@@ -249,8 +250,10 @@ TEST(Feet, AKneeThatBendsBackwardComesForward) {
   std::vector<double> pose = rest_trs(source.side().input);
   pose[10 * static_cast<std::size_t>(source.rig().find("mixamorig:Hips")) + 1] -= 0.15;
   for (const char* side : {"Left", "Right"}) {
-    turn_joint(source, pose, std::string("mixamorig:") + side + "UpLeg", hf_inner::turn_about({1, 0, 0}, 10 * degree));
-    turn_joint(source, pose, std::string("mixamorig:") + side + "Leg", hf_inner::turn_about({1, 0, 0}, -20 * degree));
+    turn_joint(source, pose, std::string("mixamorig:") + side + "UpLeg",
+               hf_inner::retarget::turn_about({1, 0, 0}, 10 * degree));
+    turn_joint(source, pose, std::string("mixamorig:") + side + "Leg",
+               hf_inner::retarget::turn_about({1, 0, 0}, -20 * degree));
   }
   const auto world = world_of(target.parents(), played(source, target, pose, true).data());
   const Vec3 hip = place_at(world, joint_of(target, Role::leg)),
@@ -270,8 +273,8 @@ TEST(Feet, ALongShinFoldsAndItsKneeStays) {
   for (const double side : {1.0, -1.0}) {  // a knee of people, and the same picture turned to the other side
     for (hf_inner::Vec3& place : places) place.z *= side;
     hf_inner::Vector<Turn> bends(2, Turn{}, &memory);
-    hf_inner::bend_leg(places, {}, places[2] + hf_inner::Vec3{step.x, step.y, side * step.z},
-                       {front.x, front.y, side * front.z}, bends);
+    hf_inner::retarget::bend_leg(places, {}, places[2] + hf_inner::Vec3{step.x, step.y, side * step.z},
+                                 {front.x, front.y, side * front.z}, bends);
     const hf_inner::Vec3 bent = places[0] + bends[0] * (places[1] - places[0]),
                          end = bent + bends[1] * (places[2] - places[1]);
     EXPECT_LT(norm(bent - places[1]), 3 * norm(step));
@@ -283,11 +286,11 @@ TEST(Feet, ALongShinFoldsAndItsKneeStays) {
 TEST(Feet, ToesTurnAsThoseOfTheSource) {
   const RigActor source("mixamo", {}), target("unreal", {1.2, 1, 1, 3, Rest::t});
   const std::size_t from = joint_of(source, Role::toe), to = joint_of(target, Role::toe);
-  const Turn bent = hf_inner::turn_about({1, 0, 0}, -30 * degree);
+  const Turn bent = hf_inner::retarget::turn_about({1, 0, 0}, -30 * degree);
   std::vector<double> pose = rest_trs(source.side().input);
   turn_joint(source, pose, source.rig().joints[from].name, bent);
   const auto turn = [&](const std::vector<double>& trs) {
-    return hf_inner::turn_of(linear_at(world_of(target.parents(), trs.data()), to));
+    return hf_inner::retarget::turn_of(linear_at(world_of(target.parents(), trs.data()), to));
   };
   const Turn since = turn(played(source, target, pose, false)) * inverse(turn(rest_trs(target.side().input)));
   EXPECT_GT(std::fabs(dot(since, bent)), 1 - 1e-9);
@@ -297,7 +300,7 @@ TEST(Feet, ToesTurnAsThoseOfTheSource) {
 TEST(Ground, ATrunkThatLiesStaysOverTheGround) {
   const RigActor source("mixamo", {}), target("unreal", {0.45, 1, 1, 3, Rest::t});
   std::vector<double> pose = rest_trs(source.side().input);
-  turn_joint(source, pose, "mixamorig:Hips", hf_inner::turn_about({1, 0, 0}, 90 * degree));
+  turn_joint(source, pose, "mixamorig:Hips", hf_inner::retarget::turn_about({1, 0, 0}, 90 * degree));
   const double height = lowest_of(source, pose, {Role::spine}) * source.height();
   pose[10 * static_cast<std::size_t>(source.rig().find("mixamorig:Hips")) + 1] -= height;
   ASSERT_NEAR(lowest_of(source, pose, {Role::spine}), 0, 1e-6);
@@ -309,9 +312,9 @@ TEST(Ground, ATrunkThatLiesStaysOverTheGround) {
 TEST(Ground, HandsOfLongerArmsStayOverTheGround) {
   const RigActor source("mixamo", {}), target("unreal", {1, 1.8, 1, 3, Rest::t});
   std::vector<double> pose = rest_trs(source.side().input);
-  turn_joint(source, pose, "mixamorig:Hips", hf_inner::turn_about({1, 0, 0}, 90 * degree));
-  turn_joint(source, pose, "mixamorig:LeftArm", hf_inner::turn_about({0, 0, 1}, -85 * degree));
-  turn_joint(source, pose, "mixamorig:RightArm", hf_inner::turn_about({0, 0, 1}, 85 * degree));
+  turn_joint(source, pose, "mixamorig:Hips", hf_inner::retarget::turn_about({1, 0, 0}, 90 * degree));
+  turn_joint(source, pose, "mixamorig:LeftArm", hf_inner::retarget::turn_about({0, 0, 1}, -85 * degree));
+  turn_joint(source, pose, "mixamorig:RightArm", hf_inner::retarget::turn_about({0, 0, 1}, 85 * degree));
   const double height = lowest_of(source, pose, {Role::hand, Role::finger}) * source.height();
   pose[10 * static_cast<std::size_t>(source.rig().find("mixamorig:Hips")) + 1] -= height;
   EXPECT_LT(lowest_of(target, played(source, target, pose, false), {Role::hand, Role::finger}), -0.05);
@@ -323,9 +326,9 @@ TEST(Beasts, RestInIsRestOut) {
   for (const std::string& kind : beasts) {
     const Rig named = make_beast(kind, true);
     const PlacedRig small(named, {}), large(named, {100, 217, true, false, {5, -3, 8}});
-    const hf_inner::CharacterInput a = small.input(), b = large.input();
+    const hf_inner::skeleton::CharacterInput a = small.input(), b = large.input();
     Memory memory;
-    const hf_inner::Character ca = know_character(a, memory), cb = know_character(b, memory);
+    const hf_inner::skeleton::Character ca = know_character(a, memory), cb = know_character(b, memory);
     RetargetOptions options;
     options.copy_same = false;
     Retarget retarget({a, ca, nullptr}, {b, cb, nullptr}, options, memory);

@@ -14,8 +14,8 @@ namespace {
 
 using hf_inner::Error;
 using hf_inner::Memory;
-using hf_inner::Retarget;
-using hf_inner::RetargetOptions;
+using hf_inner::retarget::Retarget;
+using hf_inner::retarget::RetargetOptions;
 
 std::vector<double> run(Retarget& retarget, const std::vector<double>& source, std::size_t joints, double seconds = 0) {
   std::vector<double> out(10 * joints);
@@ -121,20 +121,21 @@ TEST(Identity, TheHingeOfALegTurnsWithItsFoot) {
     while (actor.rig().joints[j].side != Side::left || actor.rig().joints[j].role != Role::leg) ++j;
     return j;
   };
-  const auto turned_rest = [&](const RigActor& actor, hf_inner::Turn turn) {
+  const auto turned_rest = [&](const RigActor& actor, hf_inner::retarget::Turn turn) {
     std::vector<double> pose = rest_trs(actor.side().input);
     const auto world = world_of(actor.parents(), pose.data());
     const auto turn_at = [&](std::size_t k) {
       const double* p = &world[12 * k];
-      return hf_inner::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
+      return hf_inner::retarget::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
     };
     const std::size_t j = thigh_of(actor);
-    const hf_inner::Turn q = inverse(turn_at(static_cast<std::size_t>(actor.parents()[j]))) * (turn * turn_at(j));
+    const hf_inner::retarget::Turn q =
+        inverse(turn_at(static_cast<std::size_t>(actor.parents()[j]))) * (turn * turn_at(j));
     const double numbers[] = {q.x, q.y, q.z, q.w};
     std::copy(numbers, numbers + 4, &pose[10 * j + 3]);
     return pose;
   };
-  const auto knee_with = [&](hf_inner::Turn turn) {
+  const auto knee_with = [&](hf_inner::retarget::Turn turn) {
     const std::vector<double> a = turned_rest(stout, turn), b = turned_rest(slim, turn);
     Memory memory;
     RetargetOptions options;
@@ -147,7 +148,7 @@ TEST(Identity, TheHingeOfALegTurnsWithItsFoot) {
     while (slim.parents()[knee] != static_cast<std::int32_t>(thigh)) ++knee;
     return place_of(world, knee) - place_of(world, thigh);
   };
-  const hf_inner::Turn out = hf_inner::turn_about({0, 1, 0}, 0.7);
+  const hf_inner::retarget::Turn out = hf_inner::retarget::turn_about({0, 1, 0}, 0.7);
   const Vec3 straight = knee_with({}), turned = knee_with(out);
   EXPECT_LT(norm(turned - out * straight), 0.01 * norm(straight));
 }
@@ -171,7 +172,7 @@ TEST(Identity, AnyPoseCanBeNamedAsRest) {
 // The whole source turned about up and moved over the ground: the target turns and moves alike, its way scaled.
 TEST(Identity, ARigidMotionOfTheSourceMovesTheTargetAlike) {
   const RigActor source("unreal", {}), target("mixamo", {0.6, 0.7, 1.5, 5, Rest::a});
-  const hf_inner::Turn turn = hf_inner::turn_about({0, 1, 0}, 0.8);
+  const hf_inner::retarget::Turn turn = hf_inner::retarget::turn_about({0, 1, 0}, 0.8);
   const Vec3 shift{0.4, 0, -0.7};
   Memory memory;
   RetargetOptions options;
@@ -182,7 +183,7 @@ TEST(Identity, ARigidMotionOfTheSourceMovesTheTargetAlike) {
     if (source.parents()[j] >= 0) continue;
     double* p = &moved[10 * j];
     const Vec3 place = turn * Vec3{p[0], p[1], p[2]} + shift;
-    const hf_inner::Turn own = turn * hf_inner::Turn{p[3], p[4], p[5], p[6]};
+    const hf_inner::retarget::Turn own = turn * hf_inner::retarget::Turn{p[3], p[4], p[5], p[6]};
     const double numbers[] = {place.x, place.y, place.z, own.x, own.y, own.z, own.w};
     std::copy(numbers, numbers + 7, p);
   }
@@ -241,16 +242,17 @@ TEST(Root, TravelIsKeptMovedToTheRootOrLeftOut) {
   const std::size_t n = target.parents().size();
   const auto hips = static_cast<std::size_t>(target.rig().find("pelvis"));
   std::vector<std::vector<double>> worlds;
-  for (const auto way : {hf_inner::RootMotion::keep, hf_inner::RootMotion::to_root, hf_inner::RootMotion::in_place}) {
+  for (const auto way : {hf_inner::retarget::RootMotion::keep, hf_inner::retarget::RootMotion::to_root,
+                         hf_inner::retarget::RootMotion::in_place}) {
     Memory memory;
     RetargetOptions options;
     options.root_motion = way;
     Retarget retarget(source.side(), target.side(), options, memory);
     const auto first = run(retarget, source.act(0).trs, n), last = run(retarget, source.act(1).trs, n, 0.03);
-    const bool stays = way == hf_inner::RootMotion::in_place;
+    const bool stays = way == hf_inner::retarget::RootMotion::in_place;
     EXPECT_NEAR(level_travel(target, first, last, hips), stays ? 0 : 0.8 * retarget.report().scale, 0.06);
     EXPECT_NEAR(level_travel(target, first, last, 0),
-                way == hf_inner::RootMotion::to_root ? level_travel(target, first, last, hips) : 0, 2e-3);
+                way == hf_inner::retarget::RootMotion::to_root ? level_travel(target, first, last, hips) : 0, 2e-3);
     worlds.push_back(world_of(target.parents(), last.data()));
   }
   for (std::size_t j = 0; j < n; ++j) {
@@ -261,7 +263,7 @@ TEST(Root, TravelIsKeptMovedToTheRootOrLeftOut) {
   const RigActor rootless("mixamo", {});
   Memory memory;
   RetargetOptions options;
-  options.root_motion = hf_inner::RootMotion::to_root;
+  options.root_motion = hf_inner::retarget::RootMotion::to_root;
   EXPECT_THROW(Retarget(source.side(), rootless.side(), options, memory), Error);
 }
 
@@ -287,10 +289,10 @@ TEST(Feet, AFootThatStandsStaysWhereItStands) {
     const std::size_t hips = static_cast<std::size_t>(source.rig().find("mixamorig:Hips"));
     auto world = world_of(source.parents(), rest.data());
     const Vec3 ankle = place_of(world, static_cast<std::size_t>(source.rig().find("mixamorig:LeftFoot")));
-    const hf_inner::Turn lean = hf_inner::turn_about({1, 0, 0}, angle);
+    const hf_inner::retarget::Turn lean = hf_inner::retarget::turn_about({1, 0, 0}, angle);
     const Vec3 place = ankle + lean * (place_of(world, hips) - ankle);
-    const hf_inner::Turn own =
-        lean * hf_inner::Turn{rest[10 * hips + 3], rest[10 * hips + 4], rest[10 * hips + 5], rest[10 * hips + 6]};
+    const hf_inner::retarget::Turn own = lean * hf_inner::retarget::Turn{rest[10 * hips + 3], rest[10 * hips + 4],
+                                                                         rest[10 * hips + 5], rest[10 * hips + 6]};
     const double numbers[] = {place.x, place.y, place.z, own.x, own.y, own.z, own.w};
     std::copy(numbers, numbers + 7, &pose[10 * hips]);
     // The feet stay flat.
@@ -299,9 +301,9 @@ TEST(Feet, AFootThatStandsStaysWhereItStands) {
       const std::size_t p = static_cast<std::size_t>(source.parents()[j]);
       const auto turn_at = [&](std::size_t k) {
         const double* m = &world[12 * k];
-        return hf_inner::turn_of({{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}});
+        return hf_inner::retarget::turn_of({{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}});
       };
-      const hf_inner::Turn local = inverse(lean * turn_at(p)) * turn_at(j);
+      const hf_inner::retarget::Turn local = inverse(lean * turn_at(p)) * turn_at(j);
       const double q[] = {local.x, local.y, local.z, local.w};
       std::copy(q, q + 4, &pose[10 * j + 3]);
     }
@@ -382,8 +384,8 @@ TEST(Bad, AFrameThatIsRefusedChangesNothing) {
               0);
 }
 
-hf_result code_of(const RigActor& source, const hf_inner::CharacterInput& input, const RetargetOptions& options = {},
-                  const double* rest = nullptr) {
+hf_result code_of(const RigActor& source, const hf_inner::skeleton::CharacterInput& input,
+                  const RetargetOptions& options = {}, const double* rest = nullptr) {
   Memory memory;
   try {
     Retarget retarget(source.side(), {input, source.side().character, rest}, options, memory);
@@ -396,9 +398,9 @@ hf_result code_of(const RigActor& source, const hf_inner::CharacterInput& input,
 
 TEST(Bad, SidesThatAreNoCharactersAreRefused) {
   const RigActor actor("mixamo", {});
-  const hf_inner::CharacterInput good = actor.side().input;
+  const hf_inner::skeleton::CharacterInput good = actor.side().input;
   EXPECT_EQ(code_of(actor, good), HF_OK);
-  hf_inner::CharacterInput in = good;
+  hf_inner::skeleton::CharacterInput in = good;
   in.joint_count = 0;
   EXPECT_EQ(code_of(actor, in), HF_ERROR_EMPTY);
   in = good;
@@ -432,7 +434,7 @@ TEST(Bad, SidesThatAreNoCharactersAreRefused) {
   options.scale = std::nan("");
   EXPECT_EQ(code_of(actor, good, options), HF_ERROR_NON_FINITE);
   options.scale = 0;
-  options.root_motion = static_cast<hf_inner::RootMotion>(3);
+  options.root_motion = static_cast<hf_inner::retarget::RootMotion>(3);
   EXPECT_EQ(code_of(actor, good, options), HF_ERROR_INVALID_ARGUMENT);
 }
 
@@ -442,16 +444,16 @@ TEST(Same, KeysAreCopiedBetweenEqualSkeletonsThatNobodyUnderstands) {
   const char* const names[] = {"q1"};
   const char* const others[] = {"q2"};
   const double trs[] = {1, 0, 0, 0, 0, 0, 1, 1, 1, 1};
-  hf_inner::CharacterInput one;
+  hf_inner::skeleton::CharacterInput one;
   one.joint_count = 1;
   one.parents = parents;
   one.names = names;
   one.trs = trs;
-  hf_inner::CharacterInput other = one;
+  hf_inner::skeleton::CharacterInput other = one;
   other.names = others;
   Memory memory;
-  const hf_inner::Character character = hf_inner::know_character(one, memory),
-                            stranger = hf_inner::know_character(other, memory);
+  const hf_inner::skeleton::Character character = hf_inner::skeleton::know_character(one, memory),
+                                      stranger = hf_inner::skeleton::know_character(other, memory);
   Retarget retarget({one, character, nullptr}, {one, character, nullptr}, {}, memory);
   EXPECT_TRUE(retarget.report().same_skeleton);
   std::vector<double> pose(trs, trs + 10);
@@ -465,14 +467,14 @@ TEST(Same, KeysAreCopiedBetweenEqualSkeletonsThatNobodyUnderstands) {
 // A body whose joints are parts of nothing.
 TEST(Bad, NoChainInCommonIsRefused) {
   const RigActor source("mixamo", {});
-  hf_inner::CharacterInput one;
+  hf_inner::skeleton::CharacterInput one;
   const std::int32_t parent = -1;
   const double matrix[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   one.joint_count = 1;
   one.parents = &parent;
   one.matrices = matrix;
   Memory memory;
-  const hf_inner::Character character = hf_inner::know_character(one, memory);
+  const hf_inner::skeleton::Character character = hf_inner::skeleton::know_character(one, memory);
   try {
     Retarget retarget(source.side(), {one, character, nullptr}, {}, memory);
     FAIL();
@@ -487,7 +489,7 @@ TEST(Report, ScaleIsTheRatioOfLegLengths) {
     Memory memory;
     Retarget retarget(source.side(), target.side(), {}, memory);
     EXPECT_NEAR(retarget.report().scale, target.side().character.leg_length / source.side().character.leg_length, 1e-9);
-    EXPECT_EQ(retarget.report().scale_source, hf_inner::ScaleSource::legs);
+    EXPECT_EQ(retarget.report().scale_source, hf_inner::retarget::ScaleSource::legs);
   }
 }
 

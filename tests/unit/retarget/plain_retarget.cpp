@@ -6,9 +6,9 @@
 
 namespace hf_test {
 
-using hf_inner::CharacterInput;
-using hf_inner::Turn;
 using hf_inner::Vec3;
+using hf_inner::retarget::Turn;
+using hf_inner::skeleton::CharacterInput;
 
 std::string plain_part(const std::string& name) {
   std::string low, side;
@@ -76,7 +76,7 @@ PlainRetarget::Rig::Rig(const CharacterInput& in)
   const Vec3 left = unit_vector(place("left thigh") - place("right thigh"));
   const Vec3 spine = place("head") - place("hips");
   const Vec3 up = unit_vector(spine - dot(spine, left) * left);
-  axes = hf_inner::turn_of_frame(left, up, cross(left, up));
+  axes = hf_inner::retarget::turn_of_frame(left, up, cross(left, up));
   leg = norm(place("left shin") - place("left thigh")) + norm(place("left foot") - place("left shin"));
 }
 

@@ -12,13 +12,13 @@ namespace hf_test {
 
 class PlainRetarget {
  public:
-  PlainRetarget(const hf_inner::CharacterInput& source, const hf_inner::CharacterInput& target);
+  PlainRetarget(const hf_inner::skeleton::CharacterInput& source, const hf_inner::skeleton::CharacterInput& target);
   // 10 numbers a joint, in and out.
   void frame(const double* source, double* target) const;
 
  private:
   struct Bone {
-    hf_inner::Turn turn;
+    hf_inner::retarget::Turn turn;
     hf_inner::Vec3 place;
     double scale = 1;
   };
@@ -28,10 +28,10 @@ class PlainRetarget {
     std::map<std::string, int> parts;  // such as "left thigh"
     std::vector<double> trs;
     std::vector<Bone> rest;
-    hf_inner::Turn axes;  // left, up and forward at rest
-    double leg = 0;       // hip to foot
+    hf_inner::retarget::Turn axes;  // left, up and forward at rest
+    double leg = 0;                 // hip to foot
 
-    explicit Rig(const hf_inner::CharacterInput& input);
+    explicit Rig(const hf_inner::skeleton::CharacterInput& input);
     Bone posed(const std::vector<Bone>& bones, std::size_t joint, const double* trs) const;
     std::vector<Bone> pose(const double* trs) const;
   };

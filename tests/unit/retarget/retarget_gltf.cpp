@@ -16,6 +16,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::retarget;
 
 void print_report(const RetargetReport& report, const hf_test::GltfCharacter& a, const hf_test::GltfCharacter& b,
                   double frame_us) {
@@ -24,10 +25,10 @@ void print_report(const RetargetReport& report, const hf_test::GltfCharacter& a,
       report.scale, scale_source_name(report.scale_source), report.same_skeleton ? ", same skeleton" : "",
       report.matched_joints, report.limb_degrees, report.deepest_drop, report.stride, frame_us);
   for (const ChainReport& chain : report.chains)
-    std::printf("    %-8s %-2s %2u on %2u: %.2f, at most %.2f\n", role_name(chain.role),
-                chain.side == Side::left    ? ".l"
-                : chain.side == Side::right ? ".r"
-                                            : "",
+    std::printf("    %-8s %-2s %2u on %2u: %.2f, at most %.2f\n", skeleton::role_name(chain.role),
+                chain.side == skeleton::Side::left    ? ".l"
+                : chain.side == skeleton::Side::right ? ".r"
+                                                      : "",
                 chain.source_joints, chain.target_joints, chain.mean_degrees, chain.worst_degrees);
   for (const auto& [name, list, names] : {std::tuple{"source", &report.unmatched_source, &a.names},
                                           std::tuple{"target", &report.unmatched_target, &b.names}}) {
@@ -73,7 +74,8 @@ int run(int argc, char** argv) {
   hf_gltf::Model target = hf_gltf::read_gltf(files[2]);
   const hf_test::GltfCharacter a(source), b(target);
   Memory memory;
-  const Character ca = know_character(a.input(), memory), cb = know_character(b.input(), memory);
+  const skeleton::Character ca = skeleton::know_character(a.input(), memory),
+                            cb = skeleton::know_character(b.input(), memory);
   const hf_gltf::Animation& clip = source.animations[find_clip(source, files[1])];
   const std::vector<double> times = hf_gltf::frame_times(clip, rate);
   std::vector<std::vector<double>> frames;
@@ -82,7 +84,7 @@ int run(int argc, char** argv) {
     const std::vector<double> pose = hf_test::trs_of(hf_gltf::sample(source, clip, time));
     poses.insert(poses.end(), pose.begin(), pose.end());
   }
-  const CharacterInput ia = a.input(), ib = b.input();
+  const skeleton::CharacterInput ia = a.input(), ib = b.input();
   find_ground_velocity({ia, ca, nullptr}, poses.data(), static_cast<std::uint32_t>(times.size()), 1 / rate,
                        options.ground_velocity, memory);
   Retarget retarget({ia, ca, nullptr}, {ib, cb, nullptr}, options, memory);

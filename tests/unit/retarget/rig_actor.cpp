@@ -8,13 +8,13 @@
 
 namespace hf_test {
 
-using hf_inner::Turn;
+using hf_inner::retarget::Turn;
 
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-Turn about(Vec3 axis, double degrees) { return hf_inner::turn_about(axis, degree * degrees); }
+Turn about(Vec3 axis, double degrees) { return hf_inner::retarget::turn_about(axis, degree * degrees); }
 constexpr Vec3 x_axis{1, 0, 0}, y_axis{0, 1, 0}, z_axis{0, 0, 1};
 
 Turn mirror(Turn q) { return {q.x, -q.y, -q.z, q.w}; }
@@ -59,7 +59,7 @@ RigActor::RigActor(const std::string& convention, const BodyShape& shape, const 
   t_rig_ = std::make_unique<Rig>(make_biped(convention, t_shape));
   placed_ = std::make_unique<PlacedRig>(*rig_, placing);
   input_ = placed_->input();
-  character_ = std::make_unique<hf_inner::Character>(hf_inner::know_character(input_, memory_));
+  character_ = std::make_unique<hf_inner::skeleton::Character>(hf_inner::skeleton::know_character(input_, memory_));
   const auto& joints = t_rig_->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     int carrier = joints[j].parent;
@@ -187,8 +187,8 @@ Acted RigActor::act(double time, bool mirrored) const {
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Vec3 axis =
         hf_inner::unit_vector({std::sin(1.0 + static_cast<double>(j)), std::cos(2.0 * static_cast<double>(j)), 0.3});
-    const Turn own = hf_inner::turn_about(axis, 0.7 * static_cast<double>(j));  // as PlacedRig has it
-    const Turn turn = frames[j].since_t * (hf_inner::inverse(frames[j].rest) * own);
+    const Turn own = hf_inner::retarget::turn_about(axis, 0.7 * static_cast<double>(j));  // as PlacedRig has it
+    const Turn turn = frames[j].since_t * (hf_inner::retarget::inverse(frames[j].rest) * own);
     const Vec3 place = is_static(j) ? rig_->joints[j].pivot : places[j] + travel;
     std::array<Vec3, 4> frame;
     const Vec3 axes[] = {x_axis, y_axis, z_axis};
@@ -208,7 +208,7 @@ Acted RigActor::act(double time, bool mirrored) const {
     for (std::size_t c = 0; c < 4; ++c)
       matrices.insert(matrices.end(), {local[c].x, local[c].y, local[c].z, c == 3 ? 1.0 : 0.0});
   }
-  hf_inner::CharacterInput pose;
+  hf_inner::skeleton::CharacterInput pose;
   pose.joint_count = static_cast<std::uint32_t>(joints.size());
   pose.matrices = matrices.data();
   out.trs = rest_trs(pose);
@@ -223,13 +223,13 @@ double RigActor::sole_height(const std::vector<double>& world) const {
     if (rig_->joints[j].role != Role::foot && rig_->joints[j].role != Role::toe) continue;
     const auto linear = [&](const std::vector<double>& w) {
       const double* p = &w[12 * j];
-      return hf_inner::Linear{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
+      return hf_inner::retarget::Linear{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
     };
     const auto origin = [&](const std::vector<double>& w) {
       return Vec3{w[12 * j + 9], w[12 * j + 10], w[12 * j + 11]};
     };
     const Vec3 p{placed_->positions[3 * v], placed_->positions[3 * v + 1], placed_->positions[3 * v + 2]};
-    const Vec3 now = linear(world) * hf_inner::solve(linear(rest), p - origin(rest)) + origin(world);
+    const Vec3 now = linear(world) * hf_inner::retarget::solve(linear(rest), p - origin(rest)) + origin(world);
     low = std::min(low, hf_inner::dot(now, character_->up) - character_->ground);
   }
   return low;

@@ -24,7 +24,7 @@ class RigActor {
 
   // Of the motion at a time; mirrored: left and right changed.
   Acted act(double time, bool mirrored = false) const;
-  hf_inner::RetargetSide side() const { return {input_, *character_, nullptr}; }
+  hf_inner::retarget::RetargetSide side() const { return {input_, *character_, nullptr}; }
   const Rig& rig() const { return *rig_; }
   const Placing& placing() const { return placing_; }
   const std::vector<std::int32_t>& parents() const { return placed_->parents; }
@@ -43,9 +43,9 @@ class RigActor {
   std::string convention_;
   Placing placing_;
   std::unique_ptr<PlacedRig> placed_;
-  hf_inner::CharacterInput input_;
+  hf_inner::skeleton::CharacterInput input_;
   hf_inner::Memory memory_;
-  std::unique_ptr<hf_inner::Character> character_;
+  std::unique_ptr<hf_inner::skeleton::Character> character_;
   std::vector<int> carriers_;
   std::vector<double> spine_shares_;
   double rest_ground_ = 0;

@@ -11,10 +11,10 @@
 namespace hf_test {
 namespace {
 
-using hf_inner::Character;
-using hf_inner::CharacterInput;
-using hf_inner::know_character;
 using hf_inner::Memory;
+using hf_inner::skeleton::Character;
+using hf_inner::skeleton::CharacterInput;
+using hf_inner::skeleton::know_character;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 

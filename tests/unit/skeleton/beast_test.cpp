@@ -6,9 +6,9 @@
 namespace hf_test {
 namespace {
 
-using hf_inner::Character;
-using hf_inner::know_character;
 using hf_inner::Memory;
+using hf_inner::skeleton::Character;
+using hf_inner::skeleton::know_character;
 
 std::string why(const Character& c) { return {c.why.begin(), c.why.end()}; }
 
@@ -21,7 +21,7 @@ TEST_P(Beasts, NamesGiveAxesRolesAndSidesWhereverTheyStand) {
                                  Placing{1, 140, false, false, {3, 0, 1}}, Placing{1, 0, true, false, {}}}) {
     Memory memory;
     const PlacedRig placed(rig, placing);
-    hf_inner::CharacterInput in = placed.input();
+    hf_inner::skeleton::CharacterInput in = placed.input();
     // A fish does not stand: its file says what is up.
     const Vec3 truth = placing.along({0, 1, 0});
     const double up[] = {truth.x, truth.y, truth.z};
@@ -36,7 +36,7 @@ TEST_P(Beasts, WithoutNamesAxesAreRightOrUnsure) {
   for (const Placing& placing : {Placing{}, Placing{0.01, 90, false, false, {}}, Placing{100, 180, false, false, {}}}) {
     Memory memory;
     const PlacedRig placed(rig, placing);
-    hf_inner::CharacterInput in = placed.input();
+    hf_inner::skeleton::CharacterInput in = placed.input();
     const double up[] = {0, 1, 0};
     in.up = up;
     const Character found = know_character(in, memory);
@@ -112,7 +112,7 @@ TEST(Quadruped, ThatLiesHasTheUpOfItsLegs) {
       positions[k + 1] = p.y;
       positions[k + 2] = p.z;
     }
-    hf_inner::CharacterInput in = placed.input();
+    hf_inner::skeleton::CharacterInput in = placed.input();
     const double declared[] = {0, 1, 0};
     in.matrices = matrices.data();
     in.positions = positions.data();

@@ -6,9 +6,9 @@
 namespace hf_test {
 namespace {
 
-using hf_inner::Character;
-using hf_inner::know_character;
 using hf_inner::Memory;
+using hf_inner::skeleton::Character;
+using hf_inner::skeleton::know_character;
 
 std::string why(const Character& c) { return {c.why.begin(), c.why.end()}; }
 
@@ -113,7 +113,7 @@ TEST(Doubt, ABodyThatLiesAtRestHasItsOwnUp) {
   const Rig rig = make_biped("unreal", {});
   Memory memory;
   const PlacedRig placed(rig, Placing{1, 0, true, false, {}});  // on its back, in a file whose up is y
-  hf_inner::CharacterInput in = placed.input();
+  hf_inner::skeleton::CharacterInput in = placed.input();
   const double up[] = {0, 1, 0};
   in.up = up;
   const Character found = know_character(in, memory);
@@ -125,7 +125,7 @@ TEST(Doubt, ADeclaredForwardIsTakenAndADisagreementSaid) {
   const Rig rig = make_biped("unity", {});
   Memory memory;
   const PlacedRig placed(rig, {});
-  hf_inner::CharacterInput in = placed.input();
+  hf_inner::skeleton::CharacterInput in = placed.input();
   const double back[] = {0, 0, -1}, across[] = {1, 0, 0};
   in.forward = back;
   const Character turned = know_character(in, memory);
@@ -161,7 +161,7 @@ TEST(Travel, OfAClipSaysWhereABodyLooksThatSaysNothingItself) {
     for (const double way : {1.0, -1.0}) {
       Memory memory;
       const PlacedRig placed(rig, placing);
-      hf_inner::CharacterInput in = placed.input();
+      hf_inner::skeleton::CharacterInput in = placed.input();
       const Vec3 walk = placing.scale * placing.along({0.1, 0, 3 * way}), still = 0.01 * walk;
       const double travels[] = {walk.x, walk.y, walk.z, still.x, still.y, still.z}, up[] = {0, 1, 0};
       in.up = up;
@@ -180,7 +180,7 @@ TEST(Travel, OfOneClipDoesNotTurnABodyRoundWhoseSidesAreNamed) {
   const Rig rig = make_biped("mixamo", {});
   Memory memory;
   const PlacedRig placed(rig, {});
-  hf_inner::CharacterInput in = placed.input();
+  hf_inner::skeleton::CharacterInput in = placed.input();
   const double back[] = {0, 0, -3};
   in.travels = back;
   in.travel_count = 1;
@@ -295,7 +295,7 @@ TEST(Mirror, NoJointMirrorsItsAncestor) {
   }
   Memory memory;
   const PlacedRig placed(rig, {});
-  hf_inner::CharacterInput in = placed.input();
+  hf_inner::skeleton::CharacterInput in = placed.input();
   const double up[] = {0, 1, 0};
   in.up = up;
   const Character found = know_character(in, memory);
@@ -344,7 +344,7 @@ TEST(Lengths, TheGroundIsUnderTheFeet) {
     EXPECT_NEAR(dot(found.middle, found.up), bare, 1e-6) << convention;
     EXPECT_NEAR(found.hip_height, 0.95, 0.01) << convention;
     EXPECT_EQ(placed.faults(found), "") << convention;
-    for (const hf_inner::Chain& chain : found.chains) {
+    for (const hf_inner::skeleton::Chain& chain : found.chains) {
       if (chain.role == Role::leg) {
         EXPECT_NEAR(chain.low, 0, 1e-6) << convention;
       }
@@ -361,7 +361,7 @@ TEST(Lengths, TheGroundIsUnderTheFeet) {
   for (const Vec3& p : upside_down.points) low = std::min(low, p.y);
   Memory memory;
   const PlacedRig placed(upside_down, {});
-  hf_inner::CharacterInput input = placed.input();
+  hf_inner::skeleton::CharacterInput input = placed.input();
   const double up[] = {0, 1, 0};
   input.up = up;
   const Character found = know_character(input, memory);
@@ -390,7 +390,7 @@ TEST(Lengths, ABodyOnItsHandsStandsOnWhatTheyHold) {
   }
   Memory memory;
   const PlacedRig placed(rig, {});
-  hf_inner::CharacterInput input = placed.input();
+  hf_inner::skeleton::CharacterInput input = placed.input();
   const double up[] = {0, 1, 0};
   input.up = up;
   const Character found = know_character(input, memory);
@@ -461,7 +461,7 @@ TEST(Chains, HoldEveryJointOnceFromRootToTip) {
       }
     }
     for (std::size_t j = 0; j < seen.size(); ++j) {
-      EXPECT_EQ(seen[j], c.kinds[j] == hf_inner::JointKind::body ? 1 : 0) << convention << " " << j;
+      EXPECT_EQ(seen[j], c.kinds[j] == hf_inner::skeleton::JointKind::body ? 1 : 0) << convention << " " << j;
       const auto& f = c.frames[j];
       EXPECT_NEAR(hf_inner::dot(hf_inner::cross(f.x, f.y), f.z), 1, 1e-9);
       EXPECT_NEAR(hf_inner::norm(f.origin - placed.placing(rig.joints[j].pivot)), 0, 1e-9);

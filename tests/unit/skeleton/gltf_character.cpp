@@ -9,8 +9,8 @@ GltfCharacter::GltfCharacter(const hf_gltf::Model& model) : CharacterArrays(mode
 GltfCharacter::GltfCharacter(const hf_gltf::Model& model, const hf_gltf::Pose& pose)
     : CharacterArrays(model, hf_gltf::standing(hf_gltf::flatten(model), model, pose), pose) {}
 
-hf_inner::CharacterInput GltfCharacter::input(bool with_names, bool with_up, bool with_declared) const {
-  auto in = CharacterArrays::input<hf_inner::CharacterInput>();
+hf_inner::skeleton::CharacterInput GltfCharacter::input(bool with_names, bool with_up, bool with_declared) const {
+  auto in = CharacterArrays::input<hf_inner::skeleton::CharacterInput>();
   if (!with_names) in.names = nullptr;
   if (!with_up) in.up = nullptr;
   if (!with_declared) {

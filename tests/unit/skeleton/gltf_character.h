@@ -9,7 +9,8 @@ struct GltfCharacter : hf_gltf::CharacterArrays {
   explicit GltfCharacter(const hf_gltf::Model& model);
   GltfCharacter(const hf_gltf::Model& model, const hf_gltf::Pose& pose);
   // Pointers into this object.
-  hf_inner::CharacterInput input(bool with_names = true, bool with_up = true, bool with_declared = true) const;
+  hf_inner::skeleton::CharacterInput input(bool with_names = true, bool with_up = true,
+                                           bool with_declared = true) const;
 };
 
 }  // namespace hf_test

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace hf_inner;
+using namespace hf_inner::skeleton;
 
 const char* axis_name(Vec3 v, char* text) {
   static const char* names[] = {"+x", "-x", "+y", "-y", "+z", "-z"};

@@ -130,8 +130,8 @@ PlacedRig::PlacedRig(const Rig& given, const Placing& place) : rig(given), placi
   triangles = rig.triangles;
 }
 
-hf_inner::CharacterInput PlacedRig::input() const {
-  hf_inner::CharacterInput in;
+hf_inner::skeleton::CharacterInput PlacedRig::input() const {
+  hf_inner::skeleton::CharacterInput in;
   in.joint_count = static_cast<std::uint32_t>(parents.size());
   in.names = names.data();
   in.parents = parents.data();
@@ -148,7 +148,7 @@ hf_inner::CharacterInput PlacedRig::input() const {
   return in;
 }
 
-std::string PlacedRig::faults(const hf_inner::Character& found, bool judge_roles) const {
+std::string PlacedRig::faults(const hf_inner::skeleton::Character& found, bool judge_roles) const {
   std::string out;
   const auto axis = [&](const char* name, Vec3 is, Vec3 truth) {
     if (hf_inner::dot(is, truth) < 0.99)
@@ -161,16 +161,16 @@ std::string PlacedRig::faults(const hf_inner::Character& found, bool judge_roles
   axis("left", found.left, hf_inner::cross(up, forward));
   for (std::size_t j = 0; j < rig.joints.size() && judge_roles; ++j) {
     const RigJoint& joint = rig.joints[j];
-    if (joint.helper && found.kinds[j] == hf_inner::JointKind::body) out += joint.name + " is of the body; ";
+    if (joint.helper && found.kinds[j] == hf_inner::skeleton::JointKind::body) out += joint.name + " is of the body; ";
     if (!joint.judged) continue;
     // A mirrored body has its left on the other side.
     const Side side = !placing.mirrored || joint.side == Side::middle ? joint.side
                       : joint.side == Side::left                      ? Side::right
                                                                       : Side::left;
     if (found.roles[j] != joint.role || found.sides[j] != side)
-      out += joint.name + " (" + std::to_string(j) + ") is " + hf_inner::role_name(found.roles[j]) + " " +
-             std::to_string(static_cast<int>(found.sides[j])) + ", not " + hf_inner::role_name(joint.role) + " " +
-             std::to_string(static_cast<int>(side)) + "; ";
+      out += joint.name + " (" + std::to_string(j) + ") is " + hf_inner::skeleton::role_name(found.roles[j]) + " " +
+             std::to_string(static_cast<int>(found.sides[j])) + ", not " + hf_inner::skeleton::role_name(joint.role) +
+             " " + std::to_string(static_cast<int>(side)) + "; ";
   }
   return out;
 }

@@ -9,9 +9,9 @@
 
 namespace hf_test {
 
-using hf_inner::Role;
-using hf_inner::Side;
 using hf_inner::Vec3;
+using hf_inner::skeleton::Role;
+using hf_inner::skeleton::Side;
 
 struct RigJoint {
   std::string name;
@@ -61,9 +61,9 @@ struct PlacedRig {
   Placing placing;
   bool any_declared = false;
   PlacedRig(const Rig& given, const Placing& place);
-  hf_inner::CharacterInput input() const;
+  hf_inner::skeleton::CharacterInput input() const;
   // What is wrong with a result, or nothing. roles: axes alone are judged otherwise.
-  std::string faults(const hf_inner::Character& found, bool judge_roles = true) const;
+  std::string faults(const hf_inner::skeleton::Character& found, bool judge_roles = true) const;
 };
 
 enum class Rest { t, a, crouched };

@@ -22,7 +22,7 @@ using hf_gltf::rest_pose;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-hf_inner::Character known_in(const PlacedRig& placed) {
+hf_inner::skeleton::Character known_in(const PlacedRig& placed) {
   static hf_inner::Memory memory;
   auto input = placed.input();
   static const double up[] = {0, 1, 0};
@@ -34,7 +34,7 @@ TEST(BlockRig, CollarsStartInTheMiddleAndLegsHangWhereTheyBegin) {
   for (const double yaw : {0.0, 90.0, 200.0}) {
     const Rig rig = make_block_rig(false);
     const PlacedRig placed(rig, Placing{1, yaw, false, false, {}});
-    const hf_inner::Character found = known_in(placed);
+    const hf_inner::skeleton::Character found = known_in(placed);
     EXPECT_EQ(placed.faults(found), "") << yaw;
     EXPECT_GE(found.role_confidence, 0.5);
     EXPECT_GE(found.forward_confidence, 0.5);
@@ -51,7 +51,7 @@ TEST(BlockRig, ALegHangsAsItsMateWhereABoneAboveOwnsNothing) {
 TEST(BlockRig, TwoJointsBehindACollarAreAnArmWithoutAHand) {
   const Rig rig = make_block_rig(false, false);
   const PlacedRig placed(rig, {});
-  const hf_inner::Character found = known_in(placed);
+  const hf_inner::skeleton::Character found = known_in(placed);
   EXPECT_EQ(placed.faults(found), "");
   for (std::size_t j = 0; j < found.roles.size(); ++j) EXPECT_NE(found.roles[j], Role::hand) << rig.joints[j].name;
 }
@@ -91,7 +91,7 @@ TEST(Spider, IsUnderstoodWhereItStandsAndNotWhereItLiesFlat) {
   for (const int lifted : {-1, 1, 2}) {
     const Rig standing = make_spider(true, lifted);
     const PlacedRig placed(standing, {});
-    const hf_inner::Character found = known_in(placed);
+    const hf_inner::skeleton::Character found = known_in(placed);
     EXPECT_EQ(placed.faults(found), "") << lifted;
     EXPECT_GE(found.role_confidence, 0.5) << lifted;
   }
@@ -217,7 +217,7 @@ TEST(Stance, APairSaysThatOneRestsInAStride) {
 
 TEST(Stance, ABodyIsAsUnevenAsItsArmsAndLegs) {
   hf_inner::Memory memory;
-  hf_inner::Character c(memory);
+  hf_inner::skeleton::Character c(memory);
   c.left = {1, 0, 0};
   c.height = 2;
   const auto add_pair = [&](Role role, hf_inner::Vec3 left, hf_inner::Vec3 right) {
@@ -225,7 +225,7 @@ TEST(Stance, ABodyIsAsUnevenAsItsArmsAndLegs) {
     for (const auto& [mate, origin] : {std::pair{first + 1, left}, std::pair{first, right}}) {
       c.roles.push_back(role);
       c.mates.push_back(mate);
-      hf_inner::RestFrame frame;
+      hf_inner::skeleton::RestFrame frame;
       frame.origin = origin;
       c.frames.push_back(frame);
     }

@@ -65,7 +65,8 @@ TEST(World, CharactersFaceWhereTheyAreSeenToFace) {
     const GltfCharacter character(hf_gltf::read_gltf(file));
     for (const bool with_up : {true, false}) {
       hf_inner::Memory memory;
-      const hf_inner::Character found = hf_inner::know_character(character.input(true, with_up), memory);
+      const hf_inner::skeleton::Character found =
+          hf_inner::skeleton::know_character(character.input(true, with_up), memory);
       const std::string why(found.why.begin(), found.why.end());
       EXPECT_GT(found.up.y, 0.95) << one.file << " with up " << with_up << "\n" << why;
       EXPECT_GT(hf_inner::dot(found.forward, one.forward), 0.9) << one.file << " with up " << with_up << "\n" << why;

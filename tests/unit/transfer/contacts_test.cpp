@@ -12,7 +12,7 @@ using hf_inner::Vec3;
 
 TEST(TransferContacts, ARegionTheCallerHoldsGoesExactlyWhereItIsSaidAndTheRestFollows) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   std::vector<uint32_t> numbers(a.pairs.names.size());
   add(transfer, a.pairs.inputs(), numbers.data());
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.3);
@@ -22,7 +22,7 @@ TEST(TransferContacts, ARegionTheCallerHoldsGoesExactlyWhereItIsSaidAndTheRestFo
   ASSERT_LT(nose, numbers.size());
   const Vec3 step = centre_of(a.pairs.target[foot], free_frame) + Vec3{0, 0.05 * a.box, 0.02 * a.box};
   const Vec3 rail = centre_of(a.pairs.target[nose], free_frame) + Vec3{0.03 * a.box, 0.02 * a.box, 0};
-  const hf_inner::PairHold holds[] = {{numbers[foot], step}, {numbers[nose], rail}};
+  const hf_inner::transfer::PairHold holds[] = {{numbers[foot], step}, {numbers[nose], rail}};
   std::vector<Vec3> held(static_cast<size_t>(transfer.target().size()));
   transfer.apply(posed.data(), held.data(), {holds, 2});
   EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[foot], held) - step), 1e-6 * a.box);
@@ -37,12 +37,12 @@ TEST(TransferContacts, ARegionTheCallerHoldsGoesExactlyWhereItIsSaidAndTheRestFo
 
 TEST(TransferContacts, BadHoldsAreNamedAndChangeNothing) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   std::vector<uint32_t> numbers(a.pairs.names.size());
   add(transfer, a.pairs.inputs(), numbers.data());
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.3), before = frame_of(transfer, posed);
   std::vector<Vec3> out = before;
-  const auto refused = [&](std::vector<hf_inner::PairHold> holds, hf_result code, uint32_t index) {
+  const auto refused = [&](std::vector<hf_inner::transfer::PairHold> holds, hf_result code, uint32_t index) {
     try {
       transfer.apply(posed.data(), out.data(), {holds.data(), holds.size()});
       ADD_FAILURE() << "not refused";
@@ -60,7 +60,7 @@ TEST(TransferContacts, BadHoldsAreNamedAndChangeNothing) {
 
 TEST(TransferContacts, AStandingFootDoesNotSlideOffItsScaledPath) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> source_rest = a.horse.rest(), rest = a.bull.rest();
   double worst = 0;
@@ -101,7 +101,7 @@ TEST(TransferContacts, AContactComesAsNearToTheGroundAsItsSource) {
   for (const bool contact : {false, true}) {
     Pairs pairs = a.pairs;
     if (contact) pairs.flags[nose] |= HF_PAIR_CONTACT;
-    hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+    hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
     add(transfer, pairs.inputs());
     const std::vector<Vec3> out = frame_of(transfer, posed);
     miss[contact] = std::abs(lowest_of(pairs.target[nose], out) - target_ground - transfer.scale() * low) / a.box;
@@ -117,7 +117,7 @@ TEST(TransferContacts, PairsThatChangeSidesAreSaidToBeCrossed) {
   const size_t left = a.pair("front foot left"), right = a.pair("front foot right");
   ASSERT_LT(std::max(left, right), pairs.names.size());
   std::swap(pairs.target[left], pairs.target[right]);
-  hf_inner::Transfer good(a.horse.core, a.bull.core, {}), bad(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer good(a.horse.core, a.bull.core, {}), bad(a.horse.core, a.bull.core, {});
   std::vector<uint32_t> numbers(pairs.names.size());
   add(good, a.pairs.inputs(), numbers.data());
   add(bad, pairs.inputs());
@@ -151,9 +151,9 @@ void check_against_names(const std::string& target_name, const std::string& list
   const World world;
   const Body horse(hf_gltf::read_gltf(file("q_Horse.glb")), world), other(hf_gltf::read_gltf(file(target_name)), world);
   const Pairs pairs = find_pairs(list, horse, other);
-  hf_inner::TransferOptions paper_options;
-  paper_options.scheme = hf_inner::paper_clusters();
-  hf_inner::Transfer transfer(horse.core, other.core, {}), paper(horse.core, other.core, paper_options);
+  hf_inner::transfer::TransferOptions paper_options;
+  paper_options.scheme = hf_inner::peers::paper_clusters();
+  hf_inner::transfer::Transfer transfer(horse.core, other.core, {}), paper(horse.core, other.core, paper_options);
   add(transfer, pairs.inputs());
   add(paper, pairs.inputs());
   for (const char* name : {"AnimalArmature|Gallop", "AnimalArmature|Walk"}) {

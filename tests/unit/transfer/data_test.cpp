@@ -25,10 +25,10 @@ Figures self_transfer(bool paper, bool anchored) {
   Pairs pairs = find_pairs("q_horse_to_q_wolf.json", horse, horse, true);
   for (uint32_t& flags : pairs.flags)
     flags = anchored ? flags | HF_PAIR_ANCHOR : flags & ~uint32_t{HF_PAIR_ANCHOR | HF_PAIR_FOOT};
-  hf_inner::TransferOptions options;
-  if (paper) options.scheme = hf_inner::paper_clusters();
+  hf_inner::transfer::TransferOptions options;
+  if (paper) options.scheme = hf_inner::peers::paper_clusters();
   options.scale = 1;
-  hf_inner::Transfer transfer(horse.core, horse.core, options);
+  hf_inner::transfer::Transfer transfer(horse.core, horse.core, options);
   add(transfer, pairs.inputs());
   Figures out;
   int frames = 0;
@@ -70,9 +70,9 @@ struct CrossFigures {
 };
 
 CrossFigures cross(const Body& horse, const Body& other, const Pairs& pairs, bool paper) {
-  hf_inner::TransferOptions options;
-  if (paper) options.scheme = hf_inner::paper_clusters();
-  hf_inner::Transfer transfer(horse.core, other.core, options);
+  hf_inner::transfer::TransferOptions options;
+  if (paper) options.scheme = hf_inner::peers::paper_clusters();
+  hf_inner::transfer::Transfer transfer(horse.core, other.core, options);
   add(transfer, pairs.inputs());
   const std::vector<Vec3> horse_rest = horse.rest(), rest = other.rest();
   CrossFigures out;
@@ -135,7 +135,7 @@ TEST(TransferData, TheDeersNoseComesAsNearToTheGroundAsTheGrazingHorses) {
   Pairs pairs = find_pairs("q_horse_to_q_deer.json", horse, deer);
   ASSERT_EQ(pairs.names[0], "nose");
   pairs.flags[0] |= HF_PAIR_CONTACT;
-  hf_inner::Transfer transfer(horse.core, deer.core, {});
+  hf_inner::transfer::Transfer transfer(horse.core, deer.core, {});
   add(transfer, pairs.inputs());
   const hf_gltf::Animation& eating =
       horse.model.animations[static_cast<size_t>(hf_gltf::find_animation(horse.model, "AnimalArmature|Eating"))];

@@ -8,8 +8,8 @@
 namespace {
 
 using namespace transfer_test;
-using hf_inner::Dials;
 using hf_inner::Vec3;
+using hf_inner::transfer::Dials;
 
 constexpr double pi = 3.14159265358979323846;
 using Frames = std::vector<std::vector<Vec3>>;
@@ -35,7 +35,7 @@ struct Dialled {
   }
   const Animals& a = animals();
   Pairs pairs;
-  hf_inner::Transfer transfer;
+  hf_inner::transfer::Transfer transfer;
 };
 
 constexpr const char* feet[] = {"front foot left", "front foot right", "hind foot left", "hind foot right"};
@@ -58,7 +58,7 @@ Dials with_neck(double value) {
 
 TEST(TransferDials, NeutralDialsGiveTheBitsOfNoDials) {
   Dialled d;
-  hf_inner::Transfer plain(d.a.horse.core, d.a.bull.core, {});
+  hf_inner::transfer::Transfer plain(d.a.horse.core, d.a.bull.core, {});
   add(plain, d.a.pairs.inputs());
   const Dials turned{1.3, 0.1, 0.5, -0.5, 0.3, 1};
   for (const double time : {0.0, 0.3, 0.7}) {
@@ -76,7 +76,7 @@ TEST(TransferDials, NeutralDialsGiveTheBitsOfNoDials) {
 TEST(TransferDials, DialsSetBeforeThePairsAreThoseSetAfterThem) {
   Dialled d;
   const Dials turned{1.2, -0.1, 0.7, -0.4, 0.2, 0.6};
-  hf_inner::Transfer before(d.a.horse.core, d.a.bull.core, {});
+  hf_inner::transfer::Transfer before(d.a.horse.core, d.a.bull.core, {});
   before.set_dials(turned);
   add(before, d.pairs.inputs());
   d.transfer.set_dials(turned);
@@ -173,7 +173,7 @@ Vec3 neck(const Dialled& d, const std::vector<Vec3>& points) {
 
 // The vertices where the neck leaves the chest: those whose field of the nose has the values of root_window.
 std::vector<int32_t> neck_root(const Dialled& d, const Body& body, const std::vector<std::vector<int32_t>>& regions) {
-  hf_inner::PairFields fields(body.core);
+  hf_inner::transfer::PairFields fields(body.core);
   std::vector<uint32_t> numbers;
   std::vector<hf_inner::Span<const int32_t>> lists;
   for (const std::vector<int32_t>& region : regions) {
@@ -186,7 +186,7 @@ std::vector<int32_t> neck_root(const Dialled& d, const Body& body, const std::ve
   std::vector<int32_t> out;
   for (int32_t v = 0; v < body.core->size(); ++v) {
     const double u = field[static_cast<size_t>(v) * regions.size() + d.a.pair("nose")];
-    if (u > hf_inner::root_window.low && u < hf_inner::root_window.high) out.push_back(v);
+    if (u > hf_inner::transfer::root_window.low && u < hf_inner::transfer::root_window.high) out.push_back(v);
   }
   return out;
 }
@@ -219,7 +219,7 @@ TEST(TransferDials, ANeckThatDoesNotFollowKeepsItsShapeOnTheTrunk) {
   const Vec3 pivot = centre_of(d.pairs.source[d.a.pair("withers")], rest);
   for (Vec3& p : posed) {
     const double t = std::clamp((p.z - from) / (0.4 * (tip - from)), 0.0, 1.0);
-    p = pivot + hf_inner::rotate(hf_inner::exponential({0.6 * t * t * (3 - 2 * t), 0, 0}), p - pivot);
+    p = pivot + hf_inner::deform::rotate(hf_inner::deform::exponential({0.6 * t * t * (3 - 2 * t), 0, 0}), p - pivot);
   }
   const std::vector<Vec3> still = frame_of(d.transfer, rest);
   const double moved = hf_inner::norm(neck(d, frame_of(d.transfer, posed)) - neck(d, still));
@@ -246,13 +246,13 @@ TEST(TransferDials, ArmSpaceTurnsTheArmOfEachSideAwayByItsAngle) {
   EXPECT_GT(side * left / d.a.box, 0.04);
   EXPECT_NEAR(left, -right, 0.05 * std::abs(left));
   // the clusters at the end of the arm turn by the whole angle
-  std::vector<hf_inner::Quaternion> turns(static_cast<size_t>(d.transfer.cluster_count()));
+  std::vector<hf_inner::deform::Quaternion> turns(static_cast<size_t>(d.transfer.cluster_count()));
   d.transfer.skin_motion(nullptr, turns.data(), nullptr);
   const int32_t end = d.pairs.target[d.a.pair("front foot left")].front();
   uint32_t joints[4];
   float weights[4];
   d.transfer.skin_weights(end, 4, joints, weights);
-  EXPECT_NEAR(hf_inner::angle_between(turns[joints[0]], {}), 0.4, 1e-6);
+  EXPECT_NEAR(hf_inner::deform::angle_between(turns[joints[0]], {}), 0.4, 1e-6);
 }
 
 TEST(TransferDials, LongPartsMakeTheWholeTurnAndNothingElseChanges) {
@@ -285,7 +285,7 @@ TEST(TransferDials, ResultsAreContinuousInEveryDial) {
     const auto frame = [&](double x) {
       Dials dials;
       double* const values[] = {&dials.stride,      &dials.hip_height_share, &dials.neck_follow,
-                                &dials.tail_follow, &dials.arm_space,  &dials.long_follow};
+                                &dials.tail_follow, &dials.arm_space,        &dials.long_follow};
       *values[which] += which == 5 ? 0.5 + x : x;
       body.transfer.set_dials(dials);
       return frame_of(body.transfer, posed);
@@ -301,14 +301,14 @@ TEST(TransferDials, ResultsAreContinuousInEveryDial) {
 TEST(TransferDials, AHeldRegionStaysUnderEveryDial) {
   Dialled d;
   uint32_t numbers[16];
-  hf_inner::Transfer transfer(d.a.horse.core, d.a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(d.a.horse.core, d.a.bull.core, {});
   add(transfer, d.pairs.inputs(), numbers);
   const std::vector<Vec3> posed = d.a.horse.posed(d.a.walk, 0.2);
   transfer.set_dials({1.4, 0.2, 0.5, 0.5, 0});
   std::vector<Vec3> out(d.a.bull.rest().size());
   for (const char* name : {"nose", "rump", "front foot left"}) {
     const Vec3 place = d.place(name, d.a.bull.rest()) + Vec3{0.1, 0.2, 0.1};
-    const hf_inner::PairHold hold{numbers[d.a.pair(name)], place};
+    const hf_inner::transfer::PairHold hold{numbers[d.a.pair(name)], place};
     transfer.apply(posed.data(), out.data(), {&hold, 1});
     EXPECT_LT(hf_inner::norm(d.place(name, out) - place) / d.a.box, 1e-8) << name;
   }

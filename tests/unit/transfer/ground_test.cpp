@@ -17,7 +17,7 @@ double smooth(double low, double high, double x) {
 
 Vec3 centroid_of(const Body& body, const std::vector<Vec3>& points) {
   hf_inner::Memory memory;
-  const auto area = hf_inner::area_shares(body.core->mesh, memory);
+  const auto area = hf_inner::transfer::area_shares(body.core->mesh, memory);
   Vec3 sum;
   for (size_t v = 0; v < points.size(); ++v) sum = sum + area[v] * points[v];
   return sum;
@@ -30,7 +30,7 @@ std::vector<Vec3> twisted(const Body& horse, double angle, double from) {
   const Vec3 middle = centroid_of(horse, posed);
   for (Vec3& p : posed) {
     const double share = from > 0 ? smooth(0.5 * from * box, from * box, p.y - ground) : 1.0;
-    const Vec3 d = hf_inner::rotate(hf_inner::exponential({0, share * angle, 0}), p - middle);
+    const Vec3 d = hf_inner::deform::rotate(hf_inner::deform::exponential({0, share * angle, 0}), p - middle);
     p = middle + d;
   }
   return posed;
@@ -40,7 +40,7 @@ std::vector<Vec3> twisted(const Body& horse, double angle, double from) {
 std::vector<Vec3> falling(const Animals& a, double angle, double time) {
   std::vector<Vec3> posed = a.horse.posed(a.walk, time);
   const double ground = lowest_of(a.horse.rest());
-  for (Vec3& p : posed) p = hf_inner::rotate(hf_inner::exponential({0, 0, angle}), p);
+  for (Vec3& p : posed) p = hf_inner::deform::rotate(hf_inner::deform::exponential({0, 0, angle}), p);
   const double low = lowest_of(posed);
   for (Vec3& p : posed) p.y += ground - low;
   return posed;
@@ -48,7 +48,7 @@ std::vector<Vec3> falling(const Animals& a, double angle, double time) {
 
 TEST(TransferGround, AFootThatStandsStaysWhileTheBodyTurnsOverIt) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> still = frame_of(transfer, a.horse.rest());
   for (const double degrees : {25.0, 40.0, 60.0}) {
@@ -64,7 +64,7 @@ TEST(TransferGround, AFootThatStandsStaysWhileTheBodyTurnsOverIt) {
 TEST(TransferGround, FeetThatTurnWithTheBodyComeRoundWithIt) {
   // all of it turned, and the head bent so that the motion is not rigid: the frame before, turned
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const auto bent = [&](std::vector<Vec3> points) {
     const std::vector<Vec3> rest = a.horse.rest();
@@ -75,10 +75,10 @@ TEST(TransferGround, FeetThatTurnWithTheBodyComeRoundWithIt) {
   };
   const std::vector<Vec3> straight = frame_of(transfer, bent(a.horse.rest()));
   const std::vector<Vec3> out = frame_of(transfer, bent(twisted(a.horse, 0.5 * pi, 0)));
-  const hf_inner::Quaternion turn = hf_inner::exponential({0, 0.5 * pi, 0});
+  const hf_inner::deform::Quaternion turn = hf_inner::deform::exponential({0, 0.5 * pi, 0});
   const Vec3 from = centroid_of(a.bull, straight), to = centroid_of(a.bull, out);
   for (size_t foot = 2; foot < 6; ++foot) {
-    const Vec3 expected = hf_inner::rotate(turn, centre_of(a.pairs.target[foot], straight) - from) + to;
+    const Vec3 expected = hf_inner::deform::rotate(turn, centre_of(a.pairs.target[foot], straight) - from) + to;
     EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[foot], out) - expected) / a.box, 0.01) << a.pairs.names[foot];
   }
 }
@@ -86,7 +86,7 @@ TEST(TransferGround, FeetThatTurnWithTheBodyComeRoundWithIt) {
 TEST(TransferGround, ABodyThatTurnsFastDoesNotSwingOut) {
   // Offsets of trunk and feet turn by a share of the body's angle; a share that grows fast makes them run ahead of it.
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const double nod = 0.05 * a.horse.core->mesh.scale;  // so that the motion is not rigid
   const std::vector<Vec3> rest = a.horse.rest();
@@ -107,7 +107,7 @@ TEST(TransferGround, ABodyThatTurnsFastDoesNotSwingOut) {
 
 // Deepest vertex of the bull under the ground, beyond what the source sinks, in boxes. Thin parts do not count.
 double sunk(const Animals& a, const std::vector<Vec3>& posed, const std::vector<Vec3>& out,
-            hf_inner::Transfer& transfer) {
+            hf_inner::transfer::Transfer& transfer) {
   const double source = std::min(0.0, lowest_of(posed) - lowest_of(a.horse.rest()));
   double low = 1e300;
   for (size_t v = 0; v < out.size(); ++v)
@@ -117,8 +117,8 @@ double sunk(const Animals& a, const std::vector<Vec3>& posed, const std::vector<
 
 TEST(TransferGround, NoPartOfTheSurfaceSinks) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
-  std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
+  std::vector<hf_inner::transfer::PairInput> inputs = a.pairs.inputs();
   add(transfer, inputs);
   const std::vector<Vec3> rest = a.horse.rest();
   const double ground = lowest_of(rest), box = a.horse.core->mesh.scale;
@@ -151,12 +151,12 @@ TEST(TransferGround, LimbsThatAreAlignedAtRestDoNotSinkAtRest) {
     if (p.y < top) p.z += 0.9 * (top - p.y);
     return p;
   });
-  hf_inner::TransferOptions options;
+  hf_inner::transfer::TransferOptions options;
   options.alignment_angle = 0.1;  // every limb that differs is aligned
   const auto depth = [&](const std::vector<Vec3>& out) { return (ground - lowest_of(out)) / box; };
-  hf_inner::TransferOptions off = options;
+  hf_inner::transfer::TransferOptions off = options;
   off.keep_ground = false;
-  hf_inner::Transfer transfer(a.horse.core, bull.core, options), bare(a.horse.core, bull.core, off);
+  hf_inner::transfer::Transfer transfer(a.horse.core, bull.core, options), bare(a.horse.core, bull.core, off);
   const Pairs pairs = find_pairs("horse_to_bull.json", a.horse, bull);
   add(transfer, pairs.inputs());
   add(bare, pairs.inputs());
@@ -174,13 +174,13 @@ TEST(TransferGround, LimbsThatAreAlignedAtRestDoNotSinkAtRest) {
     EXPECT_LT(largest_distance(out, still) / box, 0.003) << size;
   }
   // and a rigid motion carries the standing bull along
-  const hf_inner::Quaternion turn = hf_inner::exponential({0.3, 1.2, -0.4});
+  const hf_inner::deform::Quaternion turn = hf_inner::deform::exponential({0.3, 1.2, -0.4});
   std::vector<Vec3> turned = rest;
-  for (Vec3& p : turned) p = hf_inner::rotate(turn, p) + Vec3{1, 2, 3};
+  for (Vec3& p : turned) p = hf_inner::deform::rotate(turn, p) + Vec3{1, 2, 3};
   const std::vector<Vec3> out = frame_of(transfer, turned);
-  const Vec3 shift = out[0] - hf_inner::rotate(turn, still[0]);
+  const Vec3 shift = out[0] - hf_inner::deform::rotate(turn, still[0]);
   for (size_t v = 0; v < out.size(); ++v)
-    ASSERT_LT(hf_inner::norm(out[v] - hf_inner::rotate(turn, still[v]) - shift) / box, 1e-6) << v;
+    ASSERT_LT(hf_inner::norm(out[v] - hf_inner::deform::rotate(turn, still[v]) - shift) / box, 1e-6) << v;
 }
 
 // Gives the bull a thin rod that begins at a place, a piece of its own as a held weapon is. Returns its vertices.
@@ -219,7 +219,7 @@ TEST(TransferGround, WhatHangsBelowTheFeetIsNoGround) {
   const Pairs& pairs = a.pairs;  // a piece at the end of the list leaves the numbers of the others
   ASSERT_EQ(lowest_of(pairs.source[2], horse.rest()), lowest_of(pairs.source[2], a.horse.rest()));
   ASSERT_EQ(lowest_of(pairs.target[2], bull.rest()), lowest_of(pairs.target[2], a.bull.rest()));
-  hf_inner::Transfer transfer(horse.core, bull.core, {});
+  hf_inner::transfer::Transfer transfer(horse.core, bull.core, {});
   add(transfer, pairs.inputs());
   const std::vector<Vec3> still = frame_of(transfer, horse.rest());
   for (const double degrees : {25.0, 40.0}) {
@@ -228,7 +228,8 @@ TEST(TransferGround, WhatHangsBelowTheFeetIsNoGround) {
     const Vec3 middle = centroid_of(horse, posed);
     for (Vec3& p : posed) {
       const double share = smooth(0.15 * box, 0.3 * box, p.y - feet);
-      p = middle + hf_inner::rotate(hf_inner::exponential({0, share * degrees * pi / 180, 0}), p - middle);
+      p = middle +
+          hf_inner::deform::rotate(hf_inner::deform::exponential({0, share * degrees * pi / 180, 0}), p - middle);
     }
     const std::vector<Vec3> out = frame_of(transfer, posed);
     for (size_t foot = 2; foot < 6; ++foot) {
@@ -261,7 +262,7 @@ TEST(TransferGround, ThinPartsThatNoPairMovesAndTailsMaySink) {
   const std::vector<int32_t> before(bull.core->mesh.given_of_inner.begin(), bull.core->mesh.given_of_inner.end());
   const std::vector<int32_t> rod = hold_a_rod(bull, a.world, centre_of(pairs.target[a.pair("nose")], bull.rest()), 0.9);
   std::vector<std::vector<int32_t>> regions;
-  std::vector<hf_inner::PairInput> inputs = pairs.inputs();
+  std::vector<hf_inner::transfer::PairInput> inputs = pairs.inputs();
   for (size_t i = 0; i < inputs.size(); ++i) {
     std::vector<uint32_t> flat;
     for (const int32_t v : pairs.target[i]) flat.push_back(static_cast<uint32_t>(before[static_cast<size_t>(v)]));
@@ -269,7 +270,7 @@ TEST(TransferGround, ThinPartsThatNoPairMovesAndTailsMaySink) {
   }
   for (size_t i = 0; i < inputs.size(); ++i) inputs[i].target = {regions[i].data(), regions[i].size()};
   inputs[a.pair("tail")].flags |= HF_PAIR_TAIL;
-  hf_inner::Transfer transfer(a.horse.core, bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, bull.core, {});
   add(transfer, inputs);
   const std::vector<Vec3> rest = bull.rest();
   const uint8_t* sinking = transfer.sinking();
@@ -317,19 +318,19 @@ TEST(TransferGround, ThinPartsThatNoPairMovesAndTailsMaySink) {
   }
   // A contact is held above the ground with what is thin around it, and without a ground nothing is named.
   inputs[a.pair("tail")].flags = HF_PAIR_CONTACT;
-  hf_inner::Transfer touching(a.horse.core, bull.core, {});
+  hf_inner::transfer::Transfer touching(a.horse.core, bull.core, {});
   add(touching, inputs);
   for (const int32_t v : regions[a.pair("tail")]) EXPECT_EQ(touching.sinking()[v], 0);
-  hf_inner::TransferOptions off;
+  hf_inner::transfer::TransferOptions off;
   off.keep_ground = false;
-  hf_inner::Transfer flying(a.horse.core, bull.core, off);
+  hf_inner::transfer::Transfer flying(a.horse.core, bull.core, off);
   add(flying, inputs);
   EXPECT_EQ(flying.sinking(), nullptr);
 }
 
 TEST(TransferGround, ABodyThatLiesRestsOnItsTrunkNotOnWhateverReachesLowest) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> rest = a.bull.rest(), source_rest = a.horse.rest();
   const auto trunk_height = [](const Body& body, const std::vector<Vec3>& still, const std::vector<Vec3>& points) {
@@ -358,7 +359,7 @@ TEST(TransferGround, ABodyThatLiesRestsOnItsTrunkNotOnWhateverReachesLowest) {
 
 TEST(TransferGround, FallingIsAsSmoothAsItsSource) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   std::vector<Vec3> before, source_before;
   double worst = 0;
@@ -377,13 +378,13 @@ TEST(TransferGround, FallingIsAsSmoothAsItsSource) {
 TEST(TransferGround, ARegionTheCallerHoldsUnderTheGroundStaysThere) {
   // a foot on a step down
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   std::vector<uint32_t> numbers(a.pairs.names.size());
   add(transfer, a.pairs.inputs(), numbers.data());
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.3), still = frame_of(transfer, posed);
   const size_t foot = a.pair("front foot left");
   const Vec3 step = centre_of(a.pairs.target[foot], still) - Vec3{0, 0.06 * a.box, 0};
-  const hf_inner::PairHold hold{numbers[foot], step};
+  const hf_inner::transfer::PairHold hold{numbers[foot], step};
   std::vector<Vec3> out(still.size());
   transfer.apply(posed.data(), out.data(), {&hold, 1});
   EXPECT_LT(hf_inner::norm(centre_of(a.pairs.target[foot], out) - step), 1e-6 * a.box);
@@ -397,7 +398,7 @@ TEST(TransferGround, ARegionTheCallerHoldsUnderTheGroundStaysThere) {
 
 TEST(TransferGround, FramesInWhichSomethingSinksAllocateNothingAndRepeat) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> posed = falling(a, 1.2, 0.2);
   const std::vector<Vec3> first = frame_of(transfer, posed);

@@ -1,22 +1,23 @@
 // Parts that reach farther than their source's turn less: on bars of three clusters whose turns are known.
+#include "transfer/levers.h"
+
 #include <gtest/gtest.h>
 
-#include "transfer/levers.h"
 #include "transfer_support.h"
 
 namespace {
 
 using namespace transfer_test;
-using hf_inner::Levers;
-using hf_inner::Quaternion;
 using hf_inner::Vec3;
+using hf_inner::deform::Quaternion;
+using hf_inner::transfer::Levers;
 
 constexpr double pi = 3.14159265358979323846;
 
 // A square tube along x of three parts, one cluster each, that overlap at their ends. lengths: of the parts.
 struct Bar {
   World world;
-  std::shared_ptr<const hf_inner::Core> core;
+  std::shared_ptr<const hf_inner::surface::Core> core;
   std::vector<double> area;
   std::vector<int32_t> joint;
   std::vector<float> weight;
@@ -48,7 +49,7 @@ struct Bar {
       weight.insert(weight.end(), {1 - next, next, 0, 0});
     }
   }
-  hf_inner::WeightedSurface surface() const {
+  hf_inner::transfer::WeightedSurface surface() const {
     return {core.get(), {area.data(), area.size()}, joint.data(), weight.data()};
   }
 };
@@ -62,8 +63,9 @@ Levers levers(const Bar& from, const Bar& to, hf_inner::Memory& memory, double e
   const double limb[3] = {0, 1, end}, ends[3] = {1, longer, 1}, outers[3] = {0, outer, outer * end};
   // lengths that are not the limb's: both bars in units of the first part
   const double scale = from.core->mesh.scale / to.core->mesh.scale;
-  out.prepare(hf_inner::overlaps_of(3, from.surface(), memory), hf_inner::overlaps_of(3, to.surface(), memory),
-              {limb, 3}, {outers, 3}, {ends, 3}, scale, to.core->mesh.to_inner({0, 0, 0}), memory);
+  out.prepare(hf_inner::transfer::overlaps_of(3, from.surface(), memory),
+              hf_inner::transfer::overlaps_of(3, to.surface(), memory), {limb, 3}, {outers, 3}, {ends, 3}, scale,
+              to.core->mesh.to_inner({0, 0, 0}), memory);
   return out;
 }
 
@@ -74,7 +76,7 @@ TEST(TransferLevers, APartThatReachesThreeTimesAsFarFollowsAThird) {
   EXPECT_EQ(found.follow(0), 1) << "the trunk turns as its source";
   EXPECT_NEAR(found.follow(1), 1, 0.1);
   EXPECT_NEAR(found.follow(2), 1.0 / 3, 0.05);
-  Quaternion turned[3] = {Quaternion(), Quaternion(), hf_inner::exponential({0, 0, 0.2})};
+  Quaternion turned[3] = {Quaternion(), Quaternion(), hf_inner::deform::exponential({0, 0, 0.2})};
   found.turn(Quaternion(), 0, turned);
   EXPECT_NEAR(turned[2].angularDistance(Quaternion()), found.follow(2) * 0.2, 0.001);
   EXPECT_LT(turned[1].angularDistance(Quaternion()), 1e-12);
@@ -90,7 +92,7 @@ TEST(TransferLevers, AtItsRootALimbFollowsLessWhereItIsClearlyWider) {
   EXPECT_NEAR(levers(from, to, memory, 1, 1, 0).follow(2), levers(from, to, memory).follow(2), 1e-12);
   double last = 1;
   for (double ratio = 0.5; ratio < 4; ratio += 0.01) {
-    const double now = hf_inner::counted_ratio(ratio, 1.3, 1.8);
+    const double now = hf_inner::transfer::counted_ratio(ratio, 1.3, 1.8);
     EXPECT_GE(now, last) << ratio;
     EXPECT_LT(now - last, 0.04) << ratio;
     if (ratio < 1.3) {
@@ -109,7 +111,7 @@ TEST(TransferLevers, WhatHangsOnSuchAPartKeepsToIt) {
   Levers found = levers(from, to, memory);
   ASSERT_LT(found.follow(1), 0.5);
   ASSERT_EQ(found.follow(2), 1);
-  const Quaternion both = hf_inner::exponential({0, 0.3, 0});
+  const Quaternion both = hf_inner::deform::exponential({0, 0.3, 0});
   Quaternion turned[3] = {Quaternion(), both, both};
   found.turn(Quaternion(), 0, turned);
   EXPECT_LT(turned[1].angularDistance(Quaternion()), 0.2);
@@ -120,8 +122,8 @@ TEST(TransferLevers, AFootBehindSuchAPartTurnsAsItsSource) {
   const Bar from({1, 1, 1}), to({1, 3, 1});
   hf_inner::Memory memory;
   Levers found = levers(from, to, memory, 0);
-  const Quaternion foot = hf_inner::exponential({0.1, 0.2, 0});
-  Quaternion turned[3] = {Quaternion(), hf_inner::exponential({0, 0.3, 0}), foot};
+  const Quaternion foot = hf_inner::deform::exponential({0.1, 0.2, 0});
+  Quaternion turned[3] = {Quaternion(), hf_inner::deform::exponential({0, 0.3, 0}), foot};
   found.turn(Quaternion(), 0, turned);
   EXPECT_TRUE(turned[2].coeffs() == foot.coeffs());
 }
@@ -134,7 +136,7 @@ TEST(TransferLevers, NoTurnMakesAPartJump) {
     Quaternion last;
     const double step = 0.01;
     for (double angle = 0; angle < 2 * pi + step; angle += step) {
-      Quaternion turned[3] = {Quaternion(), Quaternion(), hf_inner::exponential({0.6 * angle, 0, 0.8 * angle})};
+      Quaternion turned[3] = {Quaternion(), Quaternion(), hf_inner::deform::exponential({0.6 * angle, 0, 0.8 * angle})};
       found.turn(Quaternion(), 0, turned);
       EXPECT_LT(turned[2].angularDistance(last), 2 * step) << length << " times as long at " << angle;
       last = turned[2];
@@ -146,10 +148,10 @@ TEST(TransferLevers, TheSameBodyKeepsItsRotationsToTheLastBit) {
   const Bar bar({1, 2, 1});
   hf_inner::Memory memory;
   Levers found = levers(bar, bar, memory);
-  const Quaternion given[3] = {hf_inner::exponential({1, 0, 0}), hf_inner::exponential({0, 2, 1}),
-                               hf_inner::exponential({0.4, -1, 3})};
+  const Quaternion given[3] = {hf_inner::deform::exponential({1, 0, 0}), hf_inner::deform::exponential({0, 2, 1}),
+                               hf_inner::deform::exponential({0.4, -1, 3})};
   Quaternion turned[3] = {given[0], given[1], given[2]};
-  found.turn(hf_inner::exponential({0.1, 0, 0}), 0, turned);
+  found.turn(hf_inner::deform::exponential({0.1, 0, 0}), 0, turned);
   for (int c = 0; c < 3; ++c) EXPECT_TRUE(turned[c].coeffs() == given[c].coeffs()) << c;
 }
 
@@ -157,7 +159,7 @@ TEST(TransferLevers, ADialTakesThePartToTheWholeTurn) {
   const Bar from({1, 1, 1}), to({1, 1, 3});
   hf_inner::Memory memory;
   Levers found = levers(from, to, memory);
-  const Quaternion given = hf_inner::exponential({0.3, 0, 1.9});
+  const Quaternion given = hf_inner::deform::exponential({0.3, 0, 1.9});
   double before = 0;
   for (const double whole : {0.0, 0.25, 0.5, 1.0}) {
     Quaternion turned[3] = {Quaternion(), Quaternion(), given};

@@ -97,7 +97,7 @@ struct Twins {
 
   // Mean over all frames of the root mean square error, in boxes.
   double error(size_t count) const {
-    hf_inner::Transfer transfer(source.core, target.core, {});
+    hf_inner::transfer::Transfer transfer(source.core, target.core, {});
     add(transfer, with(count).inputs());
     double sum = 0;
     int frames = 0;

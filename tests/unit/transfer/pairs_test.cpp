@@ -26,9 +26,9 @@ hf_result code_of(Call&& call, uint32_t* index = nullptr) {
 
 TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMadeAtOnce) {
   const Animals& a = animals();
-  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
+  const std::vector<hf_inner::transfer::PairInput> inputs = a.pairs.inputs();
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.4);
-  hf_inner::Transfer edited(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer edited(a.horse.core, a.bull.core, {});
   const uint32_t source_before = edited.source_counters().factorisations,
                  target_before = edited.target_counters().factorisations;
   std::vector<uint32_t> numbers(inputs.size());
@@ -48,13 +48,13 @@ TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMad
     }
     const std::vector<Vec3> out = frame_of(edited, posed);
     if (step % 6 != 0) continue;
-    hf_inner::Transfer fresh(a.horse.core, a.bull.core, {});
-    std::vector<std::pair<uint32_t, hf_inner::PairInput>> ordered;
+    hf_inner::transfer::Transfer fresh(a.horse.core, a.bull.core, {});
+    std::vector<std::pair<uint32_t, hf_inner::transfer::PairInput>> ordered;
     for (size_t k = 0; k < inputs.size(); ++k) {
       if (present[k]) ordered.emplace_back(numbers[k], inputs[k]);
     }
     std::sort(ordered.begin(), ordered.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-    std::vector<hf_inner::PairInput> now;
+    std::vector<hf_inner::transfer::PairInput> now;
     for (const auto& entry : ordered) now.push_back(entry.second);
     add(fresh, now);
     EXPECT_EQ(largest_distance(out, frame_of(fresh, posed)), 0) << "step " << step;
@@ -66,9 +66,9 @@ TEST(TransferPairs, AddingAndRemovingPairsFactorisesNothingAndEqualsATransferMad
 
 TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   const Animals& a = animals();
-  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
+  const std::vector<hf_inner::transfer::PairInput> inputs = a.pairs.inputs();
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.4);
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   std::vector<Vec3> out(static_cast<size_t>(a.bull.core->size()));
   EXPECT_EQ(code_of([&] { transfer.apply(posed.data(), out.data()); }), HF_ERROR_EMPTY);
   EXPECT_EQ(code_of([&] { transfer.cluster_count(); }), HF_ERROR_EMPTY);
@@ -78,7 +78,7 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
 
   int32_t free_vertex = 0;
   const auto taken = [&](int32_t v) {
-    return std::any_of(inputs.begin(), inputs.end(), [&](const hf_inner::PairInput& input) {
+    return std::any_of(inputs.begin(), inputs.end(), [&](const hf_inner::transfer::PairInput& input) {
       return std::count(input.source.begin(), input.source.end(), v) +
                  std::count(input.target.begin(), input.target.end(), v) >
              0;
@@ -87,7 +87,7 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   while (taken(free_vertex)) ++free_vertex;
   const int32_t out_of_range[] = {free_vertex, free_vertex, a.bull.core->size()};
   uint32_t index = 0;
-  hf_inner::PairInput bad;
+  hf_inner::transfer::PairInput bad;
   EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }, &index), HF_ERROR_EMPTY);
   EXPECT_EQ(index, 0u);
   bad.source = {&free_vertex, 1};
@@ -101,7 +101,7 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
   bad.target = {&free_vertex, 1};
   bad.flags = 1u << 20;
   EXPECT_EQ(code_of([&] { transfer.add_pairs({&bad, 1}, nullptr); }), HF_ERROR_INVALID_ARGUMENT);
-  const std::vector<hf_inner::PairInput> many(300, inputs[0]);
+  const std::vector<hf_inner::transfer::PairInput> many(300, inputs[0]);
   EXPECT_EQ(code_of([&] { transfer.add_pairs({many.data(), many.size()}, nullptr); }), HF_ERROR_TOO_LARGE);
   const uint32_t twice[] = {1, 1}, absent[] = {0, 99};
   EXPECT_EQ(code_of([&] { transfer.remove_pairs({twice, 2}); }, &index), HF_ERROR_NOT_FOUND);
@@ -121,22 +121,24 @@ TEST(TransferPairs, BadPairsAreNamedAndChangeNothing) {
 TEST(TransferPairs, BadOptionsAreRefused) {
   const Animals& a = animals();
   const auto refused = [&](auto&& change) {
-    hf_inner::TransferOptions options;
+    hf_inner::transfer::TransferOptions options;
     change(options);
-    return code_of([&] { hf_inner::Transfer transfer(a.horse.core, a.bull.core, options); });
+    return code_of([&] { hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, options); });
   };
-  EXPECT_EQ(refused([](hf_inner::TransferOptions&) {}), HF_OK);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.mode = 7; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.cluster_count = 513; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = 0.6; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = -1; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = -1; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = 1e7; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.kernel_width = std::nan(""); }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.alignment_angle = std::nan(""); }), HF_ERROR_NON_FINITE);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) { o.source_axes[0] = 1; }), HF_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(refused([](hf_inner::TransferOptions& o) {
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions&) {}), HF_OK);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.mode = 7; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.cluster_count = 513; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.kernel_width = 0.6; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.kernel_width = -1; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.scale = -1; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.scale = 1e7; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.scale = std::nan(""); }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.kernel_width = std::nan(""); }),
+            HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.alignment_angle = std::nan(""); }),
+            HF_ERROR_NON_FINITE);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) { o.source_axes[0] = 1; }), HF_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(refused([](hf_inner::transfer::TransferOptions& o) {
               const double mirrored[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
               std::copy_n(mirrored, 9, o.target_axes);
             }),
@@ -164,11 +166,11 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
   Body horse = a.horse, bull = a.bull;
   horse.build(world);
   bull.build(world);
-  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
-  const std::vector<hf_inner::PairInput> first(inputs.begin(), inputs.begin() + 6),
+  const std::vector<hf_inner::transfer::PairInput> inputs = a.pairs.inputs();
+  const std::vector<hf_inner::transfer::PairInput> first(inputs.begin(), inputs.begin() + 6),
       rest(inputs.begin() + 6, inputs.end());
   const std::vector<Vec3> posed = horse.posed(a.walk, 0.4);
-  hf_inner::Transfer transfer(horse.core, bull.core, {});
+  hf_inner::transfer::Transfer transfer(horse.core, bull.core, {});
   add(transfer, first);
   const std::vector<Vec3> with_six = frame_of(transfer, posed);
   std::vector<uint32_t> numbers(rest.size());
@@ -212,8 +214,8 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
 
 TEST(TransferPairs, OnePairMovesTheWholeTargetRigidly) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
-  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
+  const std::vector<hf_inner::transfer::PairInput> inputs = a.pairs.inputs();
   transfer.add_pairs({&inputs[0], 1}, nullptr);
   EXPECT_EQ(transfer.cluster_count(), 1);
   const std::vector<Vec3> out = frame_of(transfer, a.horse.posed(a.walk, 0.3)), rest = a.bull.rest();
@@ -226,23 +228,23 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
   for (size_t v = 0; v < everything.size(); ++v) everything[v] = static_cast<int32_t>(v);
   for (int32_t v = 0; v < a.bull.core->size() / 2; ++v) half.push_back(v);
   const int32_t single = 3, doubled[] = {9, 9, 9};
-  hf_inner::PairInput all_on_source, single_vertices;
+  hf_inner::transfer::PairInput all_on_source, single_vertices;
   all_on_source.source = {everything.data(), everything.size()};
   all_on_source.target = {half.data(), half.size()};
   single_vertices.source = {&single, 1};
   single_vertices.target = {doubled, 3};
-  for (const hf_inner::PairInput& input : {all_on_source, single_vertices}) {
+  for (const hf_inner::transfer::PairInput& input : {all_on_source, single_vertices}) {
     for (const bool paper : {false, true}) {
-      hf_inner::TransferOptions options;
-      if (paper) options.scheme = hf_inner::paper_clusters();
-      hf_inner::Transfer transfer(a.horse.core, a.bull.core, options);
+      hf_inner::transfer::TransferOptions options;
+      if (paper) options.scheme = hf_inner::peers::paper_clusters();
+      hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, options);
       transfer.add_pairs({&input, 1}, nullptr);
       EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
       for (const Vec3& p : frame_of(transfer, a.horse.posed(a.walk, 0.3))) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
     }
   }
   // all vertices of the target shared among two pairs
-  hf_inner::PairInput two[2];
+  hf_inner::transfer::PairInput two[2];
   std::vector<int32_t> front, back, other_half;
   for (int32_t v = 0; v < a.horse.core->size(); ++v)
     (a.horse.core->mesh.positions[static_cast<size_t>(v)].z > 0 ? front : back).push_back(v);
@@ -251,7 +253,7 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
   two[0].target = {half.data(), half.size()};
   two[1].source = {back.data(), back.size()};
   two[1].target = {other_half.data(), other_half.size()};
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   transfer.add_pairs({two, 2}, nullptr);
   EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6);
   EXPECT_EQ(transfer.cluster_count(), 2);
@@ -259,11 +261,11 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
 
 TEST(TransferPairs, APairSaysItsFlagsItsLeakAndHowSureItIs) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   std::vector<uint32_t> numbers(a.pairs.names.size());
   add(transfer, a.pairs.inputs(), numbers.data());
   for (size_t i = 0; i < numbers.size(); ++i) {
-    const hf_inner::PairInfo info = transfer.pair_info(numbers[i]);
+    const hf_inner::transfer::PairInfo info = transfer.pair_info(numbers[i]);
     EXPECT_EQ(info.flags, a.pairs.flags[i]);
     EXPECT_LT(info.source_leak, 1e-9);
     EXPECT_LT(info.target_leak, 1e-9);
@@ -277,8 +279,8 @@ TEST(TransferPairs, APairSaysItsFlagsItsLeakAndHowSureItIs) {
 
 TEST(TransferPairs, PairsThatComeAndGoLeaveNoMemoryBehind) {
   const Animals& a = animals();
-  const std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  const std::vector<hf_inner::transfer::PairInput> inputs = a.pairs.inputs();
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, inputs);
   uint64_t before = 0;
   for (int i = 0; i < 60; ++i) {
@@ -305,25 +307,25 @@ TEST(TransferPairs, KernelsOfTheSourceAreNormalisedAndLocal) {
     source.push_back({a.pairs.source[i].data(), a.pairs.source[i].size()});
     target.push_back({a.pairs.target[i].data(), a.pairs.target[i].size()});
   }
-  hf_inner::PairFields from(a.horse.core), to(a.bull.core);
+  hf_inner::transfer::PairFields from(a.horse.core), to(a.bull.core);
   from.add({numbers.data(), width}, {source.data(), width}, "source");
   to.add({numbers.data(), width}, {target.data(), width}, "target");
   const auto n = static_cast<size_t>(a.horse.core->size()), m = static_cast<size_t>(a.bull.core->size());
   std::vector<double> source_field(n * width), target_field(m * width), leaks(width);
   from.solve({numbers.data(), width}, source_field.data(), leaks.data());
   to.solve({numbers.data(), width}, target_field.data(), leaks.data());
-  const auto source_area = hf_inner::area_shares(a.horse.core->mesh, memory),
-             target_area = hf_inner::area_shares(a.bull.core->mesh, memory);
+  const auto source_area = hf_inner::transfer::area_shares(a.horse.core->mesh, memory),
+             target_area = hf_inner::transfer::area_shares(a.bull.core->mesh, memory);
   for (const bool paper : {false, true}) {
-    hf_inner::ClusterOptions options;
-    const auto scheme = hf_inner::paper_clusters();
+    hf_inner::transfer::ClusterOptions options;
+    const auto scheme = hf_inner::peers::paper_clusters();
     if (paper) options.scheme = scheme.get();
-    const hf_inner::Clusters clusters = hf_inner::make_clusters(
+    const hf_inner::transfer::Clusters clusters = hf_inner::transfer::make_clusters(
         options, static_cast<int32_t>(width), {source_field.data(), source_field.size()}, source_area, *a.horse.core,
         {target_field.data(), target_field.size()}, target_area, a.bull.core->mesh, memory, *a.world.jobs);
     ASSERT_GT(clusters.count, 20);
     double narrow_radius = 0, broad_radius = 0;
-    for (const hf_inner::SourceKernels* kernels : {&clusters.narrow, &clusters.broad}) {
+    for (const hf_inner::transfer::SourceKernels* kernels : {&clusters.narrow, &clusters.broad}) {
       for (size_t c = 0; c < static_cast<size_t>(clusters.count); ++c) {
         Vec3 sum, centre;
         double trace = 0, largest = 0, radius = 0;

@@ -19,7 +19,7 @@ TEST(TransferShapes, TheSameSurfaceRemeshedAndScaledFollowsWithinTwoPercentOfThe
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
   pairs.target = find_pairs("horse_to_bull.json", plain, plain).target;
   for (uint32_t& flags : pairs.flags) flags |= HF_PAIR_ANCHOR;
-  hf_inner::Transfer transfer(a.horse.core, other.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, other.core, {});
   add(transfer, pairs.inputs());
   EXPECT_NEAR(transfer.scale(), scale, 0.01 * scale);
   double sum = 0, worst = 0, largest = 0;
@@ -61,13 +61,13 @@ TEST(TransferShapes, ACopyWithAnotherRestPoseOfTheTailMovesLikeTheSource) {
   ASSERT_EQ(lifted.core->size(), a.horse.core->size());
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
   const auto error = [&](double alignment) {
-    hf_inner::TransferOptions options;
+    hf_inner::transfer::TransferOptions options;
     options.alignment_angle = alignment;
     options.scale = 1;
-    hf_inner::Transfer transfer(a.horse.core, lifted.core, options);
+    hf_inner::transfer::Transfer transfer(a.horse.core, lifted.core, options);
     std::vector<uint32_t> numbers(pairs.names.size());
     add(transfer, pairs.inputs(), numbers.data());
-    const hf_inner::PairInfo tail = transfer.pair_info(numbers[1]);
+    const hf_inner::transfer::PairInfo tail = transfer.pair_info(numbers[1]);
     EXPECT_GT(tail.alignment_angle, 0.7);
     EXPECT_EQ(tail.alignment_share > 0, alignment >= 0);
     double largest = 0;
@@ -90,7 +90,7 @@ TEST(TransferShapes, AnAlignmentSwitchedOffForAPairIsNotApplied) {
   lifted.build(a.world);
   Pairs pairs = find_pairs("horse_to_bull.json", a.horse, a.horse);
   pairs.flags[1] |= HF_PAIR_NO_ALIGNMENT;
-  hf_inner::Transfer transfer(a.horse.core, lifted.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, lifted.core, {});
   add(transfer, pairs.inputs());
   EXPECT_EQ(transfer.pair_info(1).alignment_share, 0);
   EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), lifted.rest()), 1e-6 * lifted.core->mesh.scale);
@@ -126,7 +126,7 @@ TEST(TransferShapes, LoosePartsFollowWhatTheyLieNextTo) {
   const size_t first = bull.mesh.positions.size();
   add_loose_parts(bull, head + glm::dvec3(0.1, 0.1, 0.15), {0, 1.45, -0.6}, a.world);
   ASSERT_EQ(bull.core->mesh.component_count(), 3);
-  hf_inner::Transfer transfer(a.horse.core, bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, bull.core, {});
   add(transfer, a.pairs.inputs());
   EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), bull.rest()), 1e-6);
   const auto inner = [&](size_t given) { return static_cast<size_t>(bull.core->mesh.inner_of_given[given]); };
@@ -161,7 +161,7 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
   Body bull = a.bull;
   const size_t first = bull.mesh.positions.size();
   add_loose_parts(bull, {0.3, 1.6, 0.9}, {0.4, 1.0, -0.7}, a.world);
-  const hf_inner::Core& core = *bull.core;
+  const hf_inner::surface::Core& core = *bull.core;
   std::vector<uint8_t> reached(static_cast<size_t>(core.mesh.component_count()), 0);
   const auto inner = [&](size_t given) { return core.mesh.inner_of_given[given]; };
   const auto place = [&](int32_t v) { return core.mesh.positions[static_cast<size_t>(v)]; };
@@ -179,7 +179,7 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
     field[3 * static_cast<size_t>(v) + 1] = p.y;
     field[3 * static_cast<size_t>(v) + 2] = p.z;
   }
-  hf_inner::attach_islands(core, {reached.data(), reached.size()}, 3, field.data());
+  hf_inner::transfer::attach_islands(core, {reached.data(), reached.size()}, 3, field.data());
   const auto nearest = [&](int32_t island_vertex) {
     double best = 1e300;
     int32_t host = -1;
@@ -235,7 +235,7 @@ Foot foot_of(const std::vector<int32_t>& region, const std::vector<Vec3>& points
 
 TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJitter) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, {});
+  hf_inner::transfer::Transfer transfer(a.horse.core, a.bull.core, {});
   add(transfer, a.pairs.inputs());
   const double box = a.bull.core->mesh.scale, scale = transfer.scale(), duration = hf_gltf::clip_duration(a.walk);
   const std::vector<Vec3> source_rest = a.horse.rest(), target_rest = a.bull.rest();
@@ -278,14 +278,18 @@ TEST(TransferShapes, FeetFollowTheScaledPathsOfTheSourcesFeetWithoutSinkingOrJit
 
 TEST(TransferShapes, ALimbIsTurnedTheShortestWayAlsoWhenItPointsTheOtherWay) {
   const Vec3 a{0.3, -2, 0.5}, b{-0.1, 0.4, 3};
-  const Vec3 turned = hf_inner::rotate(hf_inner::minimal_rotation(a, b, {1, 0, 0}), (1 / hf_inner::norm(a)) * a);
+  const Vec3 turned =
+      hf_inner::deform::rotate(hf_inner::transfer::minimal_rotation(a, b, {1, 0, 0}), (1 / hf_inner::norm(a)) * a);
   EXPECT_LT(hf_inner::norm(turned - (1 / hf_inner::norm(b)) * b), 1e-12);
-  const Vec3 opposite = hf_inner::rotate(hf_inner::minimal_rotation({0, 1, 0}, {0, -1, 0}, {1, 0, 0}), {0, 1, 0});
+  const Vec3 opposite =
+      hf_inner::deform::rotate(hf_inner::transfer::minimal_rotation({0, 1, 0}, {0, -1, 0}, {1, 0, 0}), {0, 1, 0});
   EXPECT_LT(hf_inner::norm(opposite - Vec3{0, -1, 0}), 1e-12);
-  const Vec3 along_axis = hf_inner::rotate(hf_inner::minimal_rotation({1, 0, 0}, {-1, 0, 0}, {1, 0, 0}), {1, 0, 0});
+  const Vec3 along_axis =
+      hf_inner::deform::rotate(hf_inner::transfer::minimal_rotation({1, 0, 0}, {-1, 0, 0}, {1, 0, 0}), {1, 0, 0});
   EXPECT_LT(hf_inner::norm(along_axis - Vec3{-1, 0, 0}), 1e-12);
-  EXPECT_NEAR(hf_inner::power(hf_inner::exponential({0, 1.2, 0}), 0.25).angularDistance(hf_inner::Quaternion()), 0.3,
-              1e-12);
+  EXPECT_NEAR(hf_inner::transfer::power(hf_inner::deform::exponential({0, 1.2, 0}), 0.25)
+                  .angularDistance(hf_inner::deform::Quaternion()),
+              0.3, 1e-12);
 }
 
 }  // namespace

@@ -1,25 +1,26 @@
 // The slides of clusters, measured on a bar of two clusters whose motion is known.
+#include "transfer/slack.h"
+
 #include <gtest/gtest.h>
 
-#include "transfer/slack.h"
 #include "transfer_support.h"
 
 namespace {
 
 using namespace transfer_test;
 using hf_inner::Mat3;
-using hf_inner::Quaternion;
-using hf_inner::Slack;
 using hf_inner::Vec3;
+using hf_inner::deform::Quaternion;
+using hf_inner::transfer::Slack;
 
 // A square tube along x from -1 to 1. Cluster 1 takes over from cluster 0 between -0.2 and 0.4, or between two rings if
 // it is coarse. Then no vertex belongs to both.
 struct Bar {
   World world;
-  std::shared_ptr<const hf_inner::Core> core;
+  std::shared_ptr<const hf_inner::surface::Core> core;
   std::vector<double> area;
-  hf_inner::Clusters clusters{*world.memory};
-  hf_inner::Translations translations{*world.memory};
+  hf_inner::transfer::Clusters clusters{*world.memory};
+  hf_inner::transfer::Translations translations{*world.memory};
 
   explicit Bar(bool coarse = false) {
     const int rings = 41;
@@ -42,7 +43,7 @@ struct Bar {
     for (size_t v = 0; v < n; ++v) {
       const double share = std::clamp((given(core->mesh.positions[v]).x + 0.2) / 0.6, 0.0, 1.0);
       const auto far = static_cast<float>(coarse ? std::round(share) : std::floor(share * 1024) / 1024);
-      for (int k = 0; k < hf_inner::blend_count; ++k) {
+      for (int k = 0; k < hf_inner::transfer::blend_count; ++k) {
         clusters.joint.push_back(k == 1 ? 1 : 0);
         clusters.weight.push_back(k == 0 ? 1 - far : k == 1 ? far : 0.0f);
       }
@@ -56,7 +57,7 @@ struct Bar {
   Slack slack(double scale) {
     Slack out(*world.memory);
     const Slack::Side side{core.get(), {area.data(), area.size()}, clusters.joint.data(), clusters.weight.data()};
-    const hf_inner::Overlaps overlaps = hf_inner::overlaps_of(2, side, *world.memory);
+    const hf_inner::transfer::Overlaps overlaps = hf_inner::transfer::overlaps_of(2, side, *world.memory);
     out.prepare(side, overlaps, overlaps, translations, Mat3::Identity(), scale, *world.memory);
     return out;
   }
@@ -64,7 +65,7 @@ struct Bar {
     std::vector<Vec3> out;
     for (size_t v = 0; v < area.size(); ++v) {
       Vec3 place;
-      for (size_t i = v * hf_inner::blend_count; i < (v + 1) * hf_inner::blend_count; ++i) {
+      for (size_t i = v * hf_inner::transfer::blend_count; i < (v + 1) * hf_inner::transfer::blend_count; ++i) {
         const auto c = static_cast<size_t>(clusters.joint[i]);
         place = place + static_cast<double>(clusters.weight[i]) *
                             (turn[c].toRotationMatrix() * core->mesh.positions[v] + shift[c]);
@@ -83,7 +84,7 @@ struct Bar {
   }
 };
 
-const Quaternion bent[2] = {Quaternion(), hf_inner::exponential({0, 0, 0.8})};
+const Quaternion bent[2] = {Quaternion(), hf_inner::deform::exponential({0, 0, 0.8})};
 
 TEST(TransferSlack, ATurnAboutAnotherPointIsTheSlideThatWasPutIn) {
   Bar bar;
@@ -142,11 +143,11 @@ TEST(TransferSlack, ClustersThatDoNotCorrespondGetLess) {
   Bar bar;
   const Slack::Side side{
       bar.core.get(), {bar.area.data(), bar.area.size()}, bar.clusters.joint.data(), bar.clusters.weight.data()};
-  const hf_inner::Overlaps overlaps = hf_inner::overlaps_of(2, side, *bar.world.memory);
+  const hf_inner::transfer::Overlaps overlaps = hf_inner::transfer::overlaps_of(2, side, *bar.world.memory);
   const auto factor = [&](const Vec3& axis, double angle) {
     Slack slack(*bar.world.memory);
-    slack.prepare(side, overlaps, overlaps, bar.translations, hf_inner::exponential(angle * axis).toRotationMatrix(), 1,
-                  *bar.world.memory);
+    slack.prepare(side, overlaps, overlaps, bar.translations,
+                  hf_inner::deform::exponential(angle * axis).toRotationMatrix(), 1, *bar.world.memory);
     return slack.pairs().empty() ? 0.0 : slack.pairs()[0].factor;
   };
   EXPECT_NEAR(factor({0, 0, 1}, 0), 1, 1e-9);

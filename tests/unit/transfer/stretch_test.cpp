@@ -14,7 +14,7 @@ using hf_inner::Vec3;
 // A generated face, its surface, and its poses by inner vertex.
 struct Head {
   samples::Face face;
-  std::shared_ptr<const hf_inner::Core> core;
+  std::shared_ptr<const hf_inner::surface::Core> core;
 
   Head(uint32_t columns, uint32_t rows, bool second, const World& world)
       : face(samples::make_face(columns, rows, second)) {
@@ -44,8 +44,8 @@ struct HeadPairs {
       for (const uint32_t v : b.face.marks[i].vertices) target.back().push_back(b.core->mesh.inner_of_given[v]);
     }
   }
-  std::vector<hf_inner::PairInput> inputs() const {
-    std::vector<hf_inner::PairInput> out(source.size());
+  std::vector<hf_inner::transfer::PairInput> inputs() const {
+    std::vector<hf_inner::transfer::PairInput> out(source.size());
     for (size_t i = 0; i < out.size(); ++i) {
       out[i].source = {source[i].data(), source[i].size()};
       out[i].target = {target[i].data(), target[i].size()};
@@ -54,8 +54,8 @@ struct HeadPairs {
   }
 };
 
-hf_inner::TransferOptions stretch() {
-  hf_inner::TransferOptions out;
+hf_inner::transfer::TransferOptions stretch() {
+  hf_inner::transfer::TransferOptions out;
   out.mode = HF_TRANSFER_STRETCH;
   return out;
 }
@@ -64,7 +64,7 @@ TEST(TransferStretch, ASurfaceOnItselfGetsItsOwnPose) {
   const World world;
   const Head head(90, 70, false, world);
   const HeadPairs pairs(head, head);
-  hf_inner::Transfer transfer(head.core, head.core, stretch());
+  hf_inner::transfer::Transfer transfer(head.core, head.core, stretch());
   add(transfer, pairs.inputs());
   for (const int shape : {0, 1, 5, 12, 24, 51}) {
     const std::vector<Vec3> posed = head.posed(shape);
@@ -74,7 +74,7 @@ TEST(TransferStretch, ASurfaceOnItselfGetsItsOwnPose) {
   const Animals& a = animals();
   Pairs self = find_pairs("horse_to_bull.json", a.horse, a.horse, true);
   for (uint32_t& flags : self.flags) flags = 0;
-  hf_inner::Transfer horse(a.horse.core, a.horse.core, stretch());
+  hf_inner::transfer::Transfer horse(a.horse.core, a.horse.core, stretch());
   add(horse, self.inputs());
   for (const double time : {0.1, 0.6}) {
     const std::vector<Vec3> posed = a.horse.posed(a.walk, time);
@@ -86,24 +86,26 @@ TEST(TransferStretch, RestGivesRestAndRigidMotionsGoOver) {
   const World world;
   const Head head(60, 50, false, world), other(70, 60, true, world);
   const HeadPairs pairs(head, other);
-  hf_inner::Transfer transfer(head.core, other.core, stretch());
+  hf_inner::transfer::Transfer transfer(head.core, other.core, stretch());
   add(transfer, pairs.inputs());
   const std::vector<Vec3> rest = head.rest(), expected = other.rest();
   EXPECT_LT(largest_distance(frame_of(transfer, rest), expected) / other.core->mesh.scale, 1e-9);
-  const hf_inner::Quaternion turn = hf_inner::exponential({0.4, -1.1, 0.3});
+  const hf_inner::deform::Quaternion turn = hf_inner::deform::exponential({0.4, -1.1, 0.3});
   std::vector<Vec3> posed;
-  for (const Vec3& p : rest) posed.push_back(hf_inner::rotate(turn, p) + Vec3{1, 2, 3});
+  for (const Vec3& p : rest) posed.push_back(hf_inner::deform::rotate(turn, p) + Vec3{1, 2, 3});
   const std::vector<Vec3> out = frame_of(transfer, posed);
-  const Vec3 shift = out[0] - hf_inner::rotate(turn, expected[0]);
+  const Vec3 shift = out[0] - hf_inner::deform::rotate(turn, expected[0]);
   for (size_t v = 0; v < out.size(); ++v)
-    ASSERT_LT(hf_inner::norm(out[v] - hf_inner::rotate(turn, expected[v]) - shift) / other.core->mesh.scale, 1e-9) << v;
+    ASSERT_LT(hf_inner::norm(out[v] - hf_inner::deform::rotate(turn, expected[v]) - shift) / other.core->mesh.scale,
+              1e-9)
+        << v;
 }
 
 TEST(TransferStretch, ASourceOfTwiceTheSizeMakesATargetOfTwiceTheSize) {
   const World world;
   const Head head(60, 50, false, world), other(70, 60, true, world);
   const HeadPairs pairs(head, other);
-  hf_inner::Transfer transfer(head.core, other.core, stretch());
+  hf_inner::transfer::Transfer transfer(head.core, other.core, stretch());
   add(transfer, pairs.inputs());
   std::vector<Vec3> posed = head.rest();
   for (Vec3& p : posed) p = 2 * p;
@@ -116,7 +118,7 @@ TEST(TransferStretch, ABodyThatBreathesAsAWholeMakesTheOtherBreathe) {
   const World world;
   const Head head(60, 50, false, world), other(70, 60, true, world);
   const HeadPairs pairs(head, other);
-  hf_inner::Transfer transfer(head.core, other.core, stretch());
+  hf_inner::transfer::Transfer transfer(head.core, other.core, stretch());
   add(transfer, pairs.inputs());
   std::vector<Vec3> posed = head.rest();
   for (Vec3& p : posed) p = {1.15 * p.x, 0.8 * p.y, 1.3 * p.z};
@@ -140,7 +142,7 @@ struct LidFigures {
 // of the motion.
 LidFigures play(const Head& head, const Head& other) {
   const HeadPairs pairs(head, other);
-  hf_inner::Transfer transfer(head.core, other.core, stretch());
+  hf_inner::transfer::Transfer transfer(head.core, other.core, stretch());
   add(transfer, pairs.inputs());
   const std::vector<Vec3> rest = other.rest();
   frame_of(transfer, head.rest());  // prepares
@@ -217,11 +219,11 @@ TEST(TransferStretch, ItTakesNoHoldsAndGivesNoSkin) {
   const World world;
   const Head head(40, 30, false, world);
   const HeadPairs pairs(head, head);
-  hf_inner::Transfer transfer(head.core, head.core, stretch());
+  hf_inner::transfer::Transfer transfer(head.core, head.core, stretch());
   add(transfer, pairs.inputs());
   const std::vector<Vec3> rest = head.rest();
   std::vector<Vec3> out(rest.size());
-  const hf_inner::PairHold hold{0, {0, 0, 0}};
+  const hf_inner::transfer::PairHold hold{0, {0, 0, 0}};
   EXPECT_ANY_THROW(transfer.apply(rest.data(), out.data(), {&hold, 1}));
   EXPECT_ANY_THROW(transfer.skin_motion(nullptr, nullptr, nullptr));
 }

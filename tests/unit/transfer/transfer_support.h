@@ -36,20 +36,21 @@ struct World {
   std::shared_ptr<hf_inner::JobRunner> jobs;
 };
 
-inline std::shared_ptr<const hf_inner::Core> make_core(const std::vector<glm::dvec3>& positions,
-                                                       const std::vector<uint32_t>& triangles, const World& world) {
-  hf_inner::MeshInput input;
+inline std::shared_ptr<const hf_inner::surface::Core> make_core(const std::vector<glm::dvec3>& positions,
+                                                                const std::vector<uint32_t>& triangles,
+                                                                const World& world) {
+  hf_inner::mesh::MeshInput input;
   input.vertex_count = static_cast<uint32_t>(positions.size());
   input.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
   input.positions = hf_inner::ConstRows(&positions[0].x, sizeof(glm::dvec3));
   input.triangles = hf_inner::IndexRows(triangles.data(), 3);
-  return hf_inner::Core::make(input, {}, world.memory, world.jobs);
+  return hf_inner::surface::Core::make(input, {}, world.memory, world.jobs);
 }
 
 struct Body {
   hf_gltf::Model model;
   hf_gltf::FlatMesh mesh;
-  std::shared_ptr<const hf_inner::Core> core;
+  std::shared_ptr<const hf_inner::surface::Core> core;
 
   Body(hf_gltf::Model from, const World& world) : model(std::move(from)), mesh(hf_gltf::flatten(model)) {
     build(world);
@@ -93,8 +94,8 @@ struct Pairs {
   std::vector<std::string> names;
   std::vector<std::vector<int32_t>> source, target;
   std::vector<uint32_t> flags;
-  std::vector<hf_inner::PairInput> inputs() const {
-    std::vector<hf_inner::PairInput> out(names.size());
+  std::vector<hf_inner::transfer::PairInput> inputs() const {
+    std::vector<hf_inner::transfer::PairInput> out(names.size());
     for (size_t i = 0; i < out.size(); ++i) {
       out[i].source = {source[i].data(), source[i].size()};
       out[i].target = {target[i].data(), target[i].size()};
@@ -166,12 +167,13 @@ inline double lowest_of(const std::vector<hf_inner::Vec3>& points) {
   return low;
 }
 
-inline void add(hf_inner::Transfer& transfer, const std::vector<hf_inner::PairInput>& inputs,
+inline void add(hf_inner::transfer::Transfer& transfer, const std::vector<hf_inner::transfer::PairInput>& inputs,
                 uint32_t* numbers = nullptr) {
   transfer.add_pairs({inputs.data(), inputs.size()}, numbers);
 }
 
-inline std::vector<hf_inner::Vec3> frame_of(hf_inner::Transfer& transfer, const std::vector<hf_inner::Vec3>& posed) {
+inline std::vector<hf_inner::Vec3> frame_of(hf_inner::transfer::Transfer& transfer,
+                                            const std::vector<hf_inner::Vec3>& posed) {
   std::vector<hf_inner::Vec3> out(static_cast<size_t>(transfer.target().size()));
   transfer.apply(posed.data(), out.data());
   return out;
@@ -184,10 +186,10 @@ inline double largest_distance(const std::vector<hf_inner::Vec3>& a, const std::
 }
 
 // Area-weighted root mean square over the box diagonal; centred: the mean difference is taken out.
-inline double rms(const hf_inner::Core& core, const std::vector<hf_inner::Vec3>& a,
+inline double rms(const hf_inner::surface::Core& core, const std::vector<hf_inner::Vec3>& a,
                   const std::vector<hf_inner::Vec3>& b, bool centred = false) {
   hf_inner::Memory memory;
-  const auto area = hf_inner::area_shares(core.mesh, memory);
+  const auto area = hf_inner::transfer::area_shares(core.mesh, memory);
   hf_inner::Vec3 mean;
   for (size_t v = 0; centred && v < a.size(); ++v) mean = mean + area[v] * (a[v] - b[v]);
   double sum = 0;

@@ -46,11 +46,11 @@ hf_inner::Vec3 moved(const Matrix& m, const double* p) {
 // The posed fine surface, and where the coarse one puts the points that are nearest to it at rest.
 class Fit {
  public:
-  Fit(const Body& body, const PlainMesh& coarse, const hf_inner::Core& core) : joints_(body.heads.size()) {
+  Fit(const Body& body, const PlainMesh& coarse, const hf_inner::surface::Core& core) : joints_(body.heads.size()) {
     const auto frames = motions(body, 6);
     frames_ = frames.size();
     coarse_ = coarse.vertex_count();
-    const hf_inner::NearestTriangle tree(core.mesh.positions, core.mesh.corners, *core.memory);
+    const hf_inner::mesh::NearestTriangle tree(core.mesh.positions, core.mesh.corners, *core.memory);
     for (std::size_t v = 0; v < body.mesh.vertex_count(); ++v) {
       const double* p = body.mesh.positions.data() + 3 * v;
       const auto found = tree.find(core.mesh.to_inner({p[0], p[1], p[2]}));
@@ -156,8 +156,8 @@ class Fit {
 // The quick form takes one creature at one level, HF_FULL_TESTS all of them.
 TEST(CarriedLevels, PoseWithinASmallFactorOfTheBestFit) {
   const bool full = std::getenv("HF_FULL_TESTS") != nullptr;
-  const std::vector<const char*> names = full ? std::vector<const char*>{"biped", "horse", "bull"}
-                                              : std::vector<const char*>{"horse"};
+  const std::vector<const char*> names =
+      full ? std::vector<const char*>{"biped", "horse", "bull"} : std::vector<const char*>{"horse"};
   for (const char* name : names) {
     const Body body = make_body(name, 1000);
     const auto source = make_core(body.mesh);
@@ -166,7 +166,7 @@ TEST(CarriedLevels, PoseWithinASmallFactorOfTheBestFit) {
           Decimator(body.mesh).down_to(static_cast<std::uint32_t>(share * body.mesh.vertex_count()));
       ASSERT_NEAR(coarse.vertex_count(), share * body.mesh.vertex_count(), 2);
       const auto core = make_core(coarse);
-      const hf_inner::FilledWeights found = carry(source, body.given(), core);
+      const hf_inner::weights::FilledWeights found = carry(source, body.given(), core);
       ASSERT_EQ(faults_of(found, at(core->size()), body.heads.size()), 0u);
       const Fit fit(body, coarse, *core);
       std::vector<double> weights(fit.size(), 0.0);

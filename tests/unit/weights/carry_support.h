@@ -24,7 +24,7 @@ struct Body {
   std::vector<Point> heads;
   std::vector<int> parents;
   samples::Creature creature;
-  hf_inner::GivenWeights given() const { return {4, joints.data(), weights.data()}; }
+  hf_inner::weights::GivenWeights given() const { return {4, joints.data(), weights.data()}; }
 };
 
 inline Body make_body(const std::string& name, std::uint32_t vertices) {
@@ -54,24 +54,24 @@ inline Body make_body(const std::string& name, std::uint32_t vertices) {
   return out;
 }
 
-inline hf_inner::MatchOptions carry_options(std::int32_t influences = 4) {
-  hf_inner::MatchOptions options;
+inline hf_inner::weights::MatchOptions carry_options(std::int32_t influences = 4) {
+  hf_inner::weights::MatchOptions options;
   options.distance = 0.05;
   options.cosine = std::cos(0.5235987755982988) - 1e-12;
   options.influences = influences;
   return options;
 }
 
-inline hf_inner::FilledWeights carry(const std::shared_ptr<const hf_inner::Core>& source,
-                                     const hf_inner::GivenWeights& given,
-                                     const std::shared_ptr<const hf_inner::Core>& target,
-                                     const hf_inner::MatchOptions& options = carry_options()) {
-  const hf_inner::SkinShape skin(source->mesh, *source->memory);
-  const hf_inner::Surface surface(target->geometry, {});
-  return hf_inner::transfer_weights(source->mesh, skin, given, target, options, &surface);
+inline hf_inner::weights::FilledWeights carry(const std::shared_ptr<const hf_inner::surface::Core>& source,
+                                              const hf_inner::weights::GivenWeights& given,
+                                              const std::shared_ptr<const hf_inner::surface::Core>& target,
+                                              const hf_inner::weights::MatchOptions& options = carry_options()) {
+  const hf_inner::mesh::SkinShape skin(source->mesh, *source->memory);
+  const hf_inner::surface::Surface surface(target->geometry, {});
+  return hf_inner::weights::transfer_weights(source->mesh, skin, given, target, options, &surface);
 }
 
-inline double share_of(const hf_inner::FilledWeights& filled, std::size_t v, std::uint32_t joint) {
+inline double share_of(const hf_inner::weights::FilledWeights& filled, std::size_t v, std::uint32_t joint) {
   double sum = 0;
   const std::size_t k = at(filled.influences);
   for (std::size_t i = v * k; i < (v + 1) * k; ++i)
@@ -80,7 +80,7 @@ inline double share_of(const hf_inner::FilledWeights& filled, std::size_t v, std
 }
 
 // Vertices whose weights are negative, do not descend, do not sum to exactly 1, or name a joint that is not there.
-inline std::size_t faults_of(const hf_inner::FilledWeights& filled, std::size_t vertices, std::size_t joints) {
+inline std::size_t faults_of(const hf_inner::weights::FilledWeights& filled, std::size_t vertices, std::size_t joints) {
   const std::size_t k = at(filled.influences);
   if (filled.weights.size() != vertices * k || filled.origin.size() != vertices) return vertices + 1;
   std::size_t faults = 0;

@@ -7,8 +7,8 @@
 namespace {
 
 using namespace hf_test;
-using hf_inner::FilledWeights;
-using hf_inner::Origin;
+using hf_inner::weights::FilledWeights;
+using hf_inner::weights::Origin;
 
 const Body& body_of(std::size_t kind) {
   static const Body bodies[3] = {make_body("biped", 1500), make_body("horse", 1500), make_body("bull", 1500)};
@@ -68,7 +68,7 @@ TEST(CarriedWeights, ThePointWhoseNormalAgreesIsTaken) {
   const auto to = make_core(target);
   FilledWeights found = carry(make_core(source), {1, joints.data(), weights.data()}, to);
   for (Index v = 0; v < to->size(); ++v) EXPECT_EQ(share_of(found, at(v), 0), 1.0);
-  hf_inner::MatchOptions any = carry_options();
+  hf_inner::weights::MatchOptions any = carry_options();
   any.cosine = -2;
   found = carry(make_core(source), {1, joints.data(), weights.data()}, to, any);
   for (Index v = 0; v < to->size(); ++v) EXPECT_EQ(share_of(found, at(v), 1), 1.0);
@@ -93,7 +93,7 @@ TEST(CarriedWeights, APointWithoutWeightsTakesTheSameInEveryOrderOfTheFaces) {
   std::vector<float> weights(mesh.vertex_count(), 1.0f);
   for (std::uint32_t v = 0; v < joints.size(); ++v) joints[v] = v;
   weights[bare] = 0;
-  const hf_inner::GivenWeights given{1, joints.data(), weights.data()};
+  const hf_inner::weights::GivenWeights given{1, joints.data(), weights.data()};
   const auto to = make_core(mesh);
   const FilledWeights expected = carry(make_core(mesh), given, to);
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
@@ -111,7 +111,7 @@ TEST(CarriedWeights, APointWithoutWeightsTakesTheSameInEveryOrderOfTheFaces) {
 }
 
 TEST(CarriedWeights, TwoHundredGarmentsHaveNoBareVertex) {
-  std::shared_ptr<const hf_inner::Core> cores[3];
+  std::shared_ptr<const hf_inner::surface::Core> cores[3];
   for (std::size_t k = 0; k < 3; ++k) cores[k] = make_core(body_of(k).mesh);
   std::size_t vertices = 0;
   std::uint32_t by_origin[8] = {};
@@ -146,22 +146,22 @@ TEST(CarriedWeights, ThreadsDoNotChangeTheBits) {
 }
 
 // Discs of a body lose their weights and are filled in again. Returns the mean difference from the true weights there.
-double fill_error(std::size_t kind, hf_inner::FieldKind field) {
+double fill_error(std::size_t kind, hf_inner::mesh::FieldKind field) {
   const Body& body = body_of(kind);
-  hf_inner::CoreOptions options;
+  hf_inner::surface::CoreOptions options;
   options.field_kind = field;
   const auto core = make_core(body.mesh, 1, options);
-  const hf_inner::Mesh& mesh = core->mesh;
+  const hf_inner::mesh::Mesh& mesh = core->mesh;
   double error = 0;
   std::size_t count = 0;
   for (std::uint32_t seed = 0; seed < 12; ++seed) {
     const hf_inner::Vec3 centre = mesh.positions[(seed * 977u + 13u) % mesh.positions.size()];
     const auto known = [&](Index v) { return norm(mesh.positions[at(v)] - centre) > 0.04 + 0.01 * (seed % 6); };
     hf_inner::Memory& memory = *core->memory;
-    hf_inner::Fill fill(core, memory);
-    fill.known = hf_inner::read_rows(mesh, body.given(), known, memory);
+    hf_inner::weights::Fill fill(core, memory);
+    fill.known = hf_inner::weights::read_rows(mesh, body.given(), known, memory);
     fill.origin.assign(at(core->size()), Origin::matched);
-    hf_inner::WeightRows guessed(memory);
+    hf_inner::weights::WeightRows guessed(memory);
     for (Index v = 0; v < core->size(); ++v) guessed.close();
     const FilledWeights found = fill_weights(fill, guessed, 4);
     for (Index v = 0; v < core->size(); ++v) {
@@ -182,8 +182,8 @@ double fill_error(std::size_t kind, hf_inner::FieldKind field) {
 TEST(CarriedWeights, BiharmonicFillsComeNearerToTheTruthThanHarmonicOnes) {
   double harmonic = 0, biharmonic = 0;
   for (std::size_t kind = 0; kind < 3; ++kind) {
-    const double one = fill_error(kind, hf_inner::FieldKind::harmonic),
-                 two = fill_error(kind, hf_inner::FieldKind::biharmonic);
+    const double one = fill_error(kind, hf_inner::mesh::FieldKind::harmonic),
+                 two = fill_error(kind, hf_inner::mesh::FieldKind::biharmonic);
     std::printf("%zu: share that other joints move: harmonic %.4f, bi-harmonic %.4f\n", kind, one, two);
     harmonic += one;
     biharmonic += two;

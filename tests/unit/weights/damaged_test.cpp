@@ -9,7 +9,7 @@
 namespace {
 
 using namespace hf_test;
-using hf_inner::Weights;
+using hf_inner::weights::Weights;
 
 // Specks, holes, doubled faces, shells, flipped triangles, another scale, moved vertices.
 PlainMesh damaged(std::uint32_t seed) {
@@ -54,12 +54,12 @@ PlainMesh damaged(std::uint32_t seed) {
   return mesh;
 }
 
-hf_inner::Bones skeleton(hf_inner::Memory& memory, const PlainMesh& mesh, std::uint32_t seed) {
+hf_inner::weights::Bones skeleton(hf_inner::Memory& memory, const PlainMesh& mesh, std::uint32_t seed) {
   std::mt19937 random(seed + 1000);
   std::uniform_real_distribution<double> any(-1, 1);
   double size = 0;
   for (const double x : mesh.positions) size = std::max(size, std::fabs(x));
-  hf_inner::Bones bones = chain(memory, 1 + static_cast<int>(random() % 9), size);
+  hf_inner::weights::Bones bones = chain(memory, 1 + static_cast<int>(random() % 9), size);
   bones.has_tails = random() % 3 != 0;
   for (std::size_t b = 0; b < bones.head.size(); ++b) {
     switch (random() % 6) {
@@ -130,12 +130,12 @@ TEST(DamagedWeights, PiecesWithoutInformationFindTheirCarriers) {
 
 TEST(DamagedWeights, DirtyMeshesTakeWeights) {
   for (const auto& [name, mesh] : dirty_meshes()) {
-    for (const auto kind : {hf_inner::OperatorKind::intrinsic_delaunay, hf_inner::OperatorKind::clamped,
-                            hf_inner::OperatorKind::uniform}) {
-      hf_inner::CoreOptions options;
+    for (const auto kind : {hf_inner::mesh::OperatorKind::intrinsic_delaunay, hf_inner::mesh::OperatorKind::clamped,
+                            hf_inner::mesh::OperatorKind::uniform}) {
+      hf_inner::surface::CoreOptions options;
       options.operator_kind = kind;
       const auto core = make_core(mesh, 1, options);
-      const auto skin = hf_inner::make_owner_in<hf_inner::SkinSurface>(core->memory, core);
+      const auto skin = hf_inner::make_owner_in<hf_inner::weights::SkinSurface>(core->memory, core);
       const Weights weights(skin, 4, skeleton(*core->memory, mesh, 7));
       expect_valid(weights, name);
     }

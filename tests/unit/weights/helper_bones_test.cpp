@@ -9,6 +9,7 @@ namespace {
 
 using namespace hf_test;
 using namespace hf_inner;
+using namespace hf_inner::weights;
 
 TEST(HelperBones, ReasonsAddUp) {
   Memory memory;

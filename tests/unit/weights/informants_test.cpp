@@ -4,8 +4,8 @@
 namespace {
 
 using namespace hf_test;
-using hf_inner::Bones;
-using hf_inner::Weights;
+using hf_inner::weights::Bones;
+using hf_inner::weights::Weights;
 
 // Two tetrahedra through one another: the corners of each are behind a face of the other, so none sees the bones in the
 // middle. A triangle from corner to corner makes one piece of them.
@@ -30,7 +30,7 @@ TEST(Informants, ABodyThatSeesNoBoneAsksUnseenWhateverAButtonSees) {
   EXPECT_TRUE(alone.state().counts.blind);
   EXPECT_TRUE(both.state().counts.blind);
   for (Index v = 0; at(v) < star.vertex_count(); ++v) {
-    EXPECT_EQ(both.state().origin[at(v)], hf_inner::Origin::informed);
+    EXPECT_EQ(both.state().origin[at(v)], hf_inner::weights::Origin::informed);
     EXPECT_NEAR(weight_of(both, v, 0), weight_of(alone, v, 0), 1e-5);
   }
   EXPECT_GT(weight_of(both, 4, 0), 0.5);

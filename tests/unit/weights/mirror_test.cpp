@@ -10,6 +10,7 @@ namespace {
 
 using namespace hf_test;
 using namespace hf_inner;
+using namespace hf_inner::weights;
 
 std::vector<Index> partners(const std::string& names, std::size_t count) {
   Memory memory;
@@ -85,7 +86,7 @@ struct Scene {
     return sum / core->size();
   }
   Body body;
-  std::shared_ptr<const Core> core;
+  std::shared_ptr<const surface::Core> core;
   std::shared_ptr<const SkinSurface> skin;
   std::string names;
 };
@@ -97,7 +98,7 @@ TEST(MirroredWeights, OneSideGivesTheOther) {
       for (const MirrorTo to : {MirrorTo::negative, MirrorTo::positive, MirrorTo::both}) {
         const MirroredWeights found = scene.mirror(to, by_names, scene.body.given());
         EXPECT_EQ(faults_of(found.filled, at(scene.core->size()), scene.body.heads.size()), 0u);
-        EXPECT_EQ(found.plane.from, by_names ? PlaneFrom::bones : PlaneFrom::surface);
+        EXPECT_EQ(found.plane.from, by_names ? mesh::PlaneFrom::bones : mesh::PlaneFrom::surface);
         EXPECT_NEAR(std::fabs(found.plane.normal.x), 1, 1e-4);
         for (std::size_t b = 0; b < scene.body.heads.size(); ++b) {
           const std::string& joint = scene.body.creature.skeleton[b].name;

@@ -7,9 +7,9 @@
 namespace {
 
 using namespace hf_test;
-using hf_inner::Bones;
 using hf_inner::Vec3;
-using hf_inner::Weights;
+using hf_inner::weights::Bones;
+using hf_inner::weights::Weights;
 
 // A closed tube from `low` to `high` along x, around the line at height y.
 PlainMesh part(double low, double high, double radius, double y = 0, std::uint32_t rings = 6) {
@@ -55,7 +55,7 @@ struct Robot {
   }
   PlainMesh mesh;
   std::vector<Index> first;  // vertex of each part, one more
-  std::shared_ptr<const hf_inner::SkinSurface> skin;
+  std::shared_ptr<const hf_inner::weights::SkinSurface> skin;
   std::unique_ptr<Bones> bones;
 };
 
@@ -127,9 +127,9 @@ TEST(RigidPieces, TheOrderOfThePartsDoesNotDecideWhichBoneTheyTake) {
 TEST(RigidPieces, APinInAPartIsExactAndFades) {
   const Robot robot({part(0, 4, 1), part(4.2, 9, 1)});
   Weights weights = robot.make();
-  hf_inner::Pins pins(*robot.skin->core->memory);
+  hf_inner::weights::Pins pins(*robot.skin->core->memory);
   const Index pinned = robot.first[1];
-  pins.places.push_back(hf_inner::Site::at_vertex(robot.skin->core->mesh, pinned));
+  pins.places.push_back(hf_inner::solve::Site::at_vertex(robot.skin->core->mesh, pinned));
   pins.radius.push_back(0);
   pins.bone.push_back(0);
   pins.share.push_back(1);
@@ -139,7 +139,7 @@ TEST(RigidPieces, APinInAPartIsExactAndFades) {
   EXPECT_EQ(weight_of(weights, pinned, 0), 1);
   EXPECT_GT(weight_of(weights, robot.first[2] - 1, 1), 0.9);  // the other end
   EXPECT_EQ(robot.range(weights, 0, 0), whole);
-  weights.set_pins(hf_inner::Pins(*robot.skin->core->memory));
+  weights.set_pins(hf_inner::weights::Pins(*robot.skin->core->memory));
   EXPECT_TRUE(same_weights(weights, robot.make()));
 }
 
@@ -291,12 +291,12 @@ TEST(RigidPieces, ContactsNameBothParts) {
   hf_inner::Memory& memory = *robot.skin->core->memory;
   hf_inner::Vector<std::uint8_t> marked(3, 0, &memory);
   marked[1] = 1;
-  const hf_inner::PieceContacts contacts(*robot.skin->core, marked, memory);
+  const hf_inner::weights::PieceContacts contacts(*robot.skin->core, marked, memory);
   ASSERT_GT(contacts.all.size(), 0u);
   EXPECT_EQ(contacts.from(1).size(), contacts.all.size());
   EXPECT_EQ(contacts.to(0).size(), contacts.all.size());
   EXPECT_EQ(contacts.to(2).size(), 0u);
-  for (const hf_inner::PieceContact& contact : contacts.all) {
+  for (const hf_inner::weights::PieceContact& contact : contacts.all) {
     EXPECT_LT(contact.vertex, robot.first[1]);
     EXPECT_GT(contact.strength, 0);
   }

@@ -6,9 +6,9 @@
 namespace {
 
 using namespace hf_test;
-using hf_inner::Bones;
 using hf_inner::Vec3;
-using hf_inner::Weights;
+using hf_inner::weights::Bones;
+using hf_inner::weights::Weights;
 
 constexpr double length = 9;
 
@@ -40,7 +40,7 @@ TEST(Skeleton, JointsEndAtTheirChildrenAlongTheirAxisOrInTheSkin) {
   add({4, 0.5, 2}, 9);              // 10
   add({5, 0, 2}, 9);                // 11
   add({1, -0.5, 0}, 7, {}, false);  // 12: no bone; with one child off its axis alone, 7 would reach to it
-  const auto segments = hf_inner::bone_segments(bones, mesh, skin->skin, memory);
+  const auto segments = hf_inner::weights::bone_segments(bones, mesh, skin->skin, memory);
   ASSERT_EQ(segments.size(), 11u);
   const auto tail = [&](Index bone) {
     for (const auto& s : segments) {
@@ -72,11 +72,12 @@ TEST(Skeleton, ALeafDoesNotLieOnTheBoneAboveIt) {
       bones.axis.push_back(x > 0 ? hf_inner::unit_vector({-1, slant, 0}) : Vec3{1, 0, 0});
       bones.deforms.push_back(1);
     }
-    const auto segments = hf_inner::bone_segments(bones, skin->core->mesh, skin->skin, memory);
+    const auto segments = hf_inner::weights::bone_segments(bones, skin->core->mesh, skin->skin, memory);
     ASSERT_EQ(segments.size(), 2u);
     expect_near(skin->core->mesh.to_given(segments[0].tail), {4.5, 0, 0}, "the bone above");
     expect_near(skin->core->mesh.to_given(segments[1].tail), {length, 0, 0}, "the leaf");
-    EXPECT_EQ(hf_inner::bone_faults(2, segments, skin->skin, memory)[1] & hf_inner::bone_coincident, 0u);
+    EXPECT_EQ(hf_inner::weights::bone_faults(2, segments, skin->skin, memory)[1] & hf_inner::weights::bone_coincident,
+              0u);
   }
 }
 

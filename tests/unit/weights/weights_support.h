@@ -45,8 +45,8 @@ inline PlainMesh tube(std::uint32_t around, std::uint32_t rings, double length) 
 }
 
 // Bones one after the other along the axis of the tube.
-inline hf_inner::Bones chain(hf_inner::Memory& memory, int count, double length) {
-  hf_inner::Bones bones(memory);
+inline hf_inner::weights::Bones chain(hf_inner::Memory& memory, int count, double length) {
+  hf_inner::weights::Bones bones(memory);
   bones.has_tails = true;
   for (int b = 0; b < count; ++b) {
     bones.head.push_back({length * b / count, 0, 0});
@@ -57,12 +57,12 @@ inline hf_inner::Bones chain(hf_inner::Memory& memory, int count, double length)
   return bones;
 }
 
-inline std::shared_ptr<const hf_inner::SkinSurface> skin_of(const PlainMesh& mesh, std::uint32_t threads = 1) {
+inline std::shared_ptr<const hf_inner::weights::SkinSurface> skin_of(const PlainMesh& mesh, std::uint32_t threads = 1) {
   const auto core = make_core(mesh, threads);
-  return hf_inner::make_owner_in<hf_inner::SkinSurface>(core->memory, core);
+  return hf_inner::make_owner_in<hf_inner::weights::SkinSurface>(core->memory, core);
 }
 
-inline double weight_of(const hf_inner::Weights& weights, Index v, std::uint32_t bone) {
+inline double weight_of(const hf_inner::weights::Weights& weights, Index v, std::uint32_t bone) {
   const std::size_t k = at(weights.influences());
   double sum = 0;
   for (std::size_t i = 0; i < k; ++i) {
@@ -73,9 +73,9 @@ inline double weight_of(const hf_inner::Weights& weights, Index v, std::uint32_t
 }
 
 // Every vertex has weights that are not negative, descend and sum to 1 in floats, and joints below the count.
-inline void expect_valid(const hf_inner::Weights& weights, const std::string& what = "") {
+inline void expect_valid(const hf_inner::weights::Weights& weights, const std::string& what = "") {
   const std::size_t k = at(weights.influences());
-  const hf_inner::WeightState& state = weights.state();
+  const hf_inner::weights::WeightState& state = weights.state();
   std::size_t faults = 0;
   for (std::size_t v = 0; v < state.origin.size(); ++v) {
     float sum = 0;
@@ -91,7 +91,7 @@ inline void expect_valid(const hf_inner::Weights& weights, const std::string& wh
   EXPECT_EQ(faults, 0u) << what;
 }
 
-inline double worst_difference(const hf_inner::Weights& a, const hf_inner::Weights& b) {
+inline double worst_difference(const hf_inner::weights::Weights& a, const hf_inner::weights::Weights& b) {
   double worst = 0;
   for (Index v = 0; at(v) < a.state().origin.size(); ++v) {
     for (std::uint32_t bone = 0; bone < a.state().inputs->bones.head.size(); ++bone)
@@ -100,7 +100,7 @@ inline double worst_difference(const hf_inner::Weights& a, const hf_inner::Weigh
   return worst;
 }
 
-inline bool same_weights(const hf_inner::Weights& a, const hf_inner::Weights& b) {
+inline bool same_weights(const hf_inner::weights::Weights& a, const hf_inner::weights::Weights& b) {
   return a.state().joints == b.state().joints && a.state().weights == b.state().weights;
 }
 

@@ -11,10 +11,10 @@
 namespace {
 
 using namespace hf_test;
-using hf_inner::Bones;
-using hf_inner::Pins;
-using hf_inner::Site;
-using hf_inner::Weights;
+using hf_inner::solve::Site;
+using hf_inner::weights::Bones;
+using hf_inner::weights::Pins;
+using hf_inner::weights::Weights;
 
 constexpr std::uint32_t around = 12, rings = 31;
 constexpr double length = 9;
@@ -23,7 +23,7 @@ Index ring_vertex(Index ring, Index k = 0) { return ring * static_cast<Index>(ar
 
 // Welded meshes number their vertices in the order of the caller, where nothing is welded.
 struct Scene {
-  std::shared_ptr<const hf_inner::SkinSurface> skin;
+  std::shared_ptr<const hf_inner::weights::SkinSurface> skin;
   hf_inner::Memory& memory;
   Bones bones;
   explicit Scene(int count = 3, const PlainMesh& mesh = tube(around, rings, length), std::uint32_t threads = 1)
@@ -58,7 +58,7 @@ TEST(Weights, TheNearestBoneLeadsAndJointsAreSmooth) {
 TEST(Weights, TheSmoothFieldsSumToOneAndStayBetweenZeroAndOne) {
   const Scene scene(7);
   const Weights weights = scene.make();
-  const hf_inner::Solution& solution = *weights.state().solution;
+  const hf_inner::weights::Solution& solution = *weights.state().solution;
   for (std::size_t v = 0; v < at(scene.skin->core->size()); ++v) {
     double sum = 0;
     for (std::size_t c = 0; c < solution.width(); ++c) {
@@ -272,15 +272,17 @@ TEST(Weights, FaultsOfBonesAreNamed) {
   expect_valid(weights);
   const auto& faults = weights.state().solution->faults;
   EXPECT_EQ(faults[0] | faults[1] | faults[2], 0u);
-  EXPECT_TRUE(faults[3] & hf_inner::bone_no_length);
-  EXPECT_EQ(faults[4], static_cast<std::uint32_t>(hf_inner::bone_coincident));
-  EXPECT_EQ(faults[5], static_cast<std::uint32_t>(hf_inner::bone_outside | hf_inner::bone_informs_none));
+  EXPECT_TRUE(faults[3] & hf_inner::weights::bone_no_length);
+  EXPECT_EQ(faults[4], static_cast<std::uint32_t>(hf_inner::weights::bone_coincident));
+  EXPECT_EQ(faults[5],
+            static_cast<std::uint32_t>(hf_inner::weights::bone_outside | hf_inner::weights::bone_informs_none));
   EXPECT_NEAR(weight_of(weights, ring_vertex(13), 1), weight_of(weights, ring_vertex(13), 4), 1e-6);
 }
 
 // Joints along x in a tube of length 9: heads, the axis of each, the parents.
-std::vector<hf_inner::BoneSegment> segments_of(const std::vector<double>& x, const std::vector<double>& axis_x,
-                                               const std::vector<Index>& parents, const std::vector<int>& deforms) {
+std::vector<hf_inner::weights::BoneSegment> segments_of(const std::vector<double>& x, const std::vector<double>& axis_x,
+                                                        const std::vector<Index>& parents,
+                                                        const std::vector<int>& deforms) {
   const Scene scene;
   Bones bones(scene.memory);
   for (std::size_t j = 0; j < x.size(); ++j) {
@@ -291,8 +293,8 @@ std::vector<hf_inner::BoneSegment> segments_of(const std::vector<double>& x, con
     bones.deforms.push_back(static_cast<std::uint8_t>(deforms[j]));
   }
   const auto found = bone_segments(bones, scene.skin->core->mesh, scene.skin->skin, scene.memory);
-  std::vector<hf_inner::BoneSegment> out;
-  for (hf_inner::BoneSegment s : found) {
+  std::vector<hf_inner::weights::BoneSegment> out;
+  for (hf_inner::weights::BoneSegment s : found) {
     s.head = scene.skin->core->mesh.to_given(s.head);
     s.tail = scene.skin->core->mesh.to_given(s.tail);
     out.push_back(s);
