@@ -122,7 +122,7 @@ struct SkeletonPair::Inside {
     // As the retarget pairs them: the first arm, wing or fin with one of another kind where there is none of its own.
     Role role = b.role;
     if (role != Role::leg) {
-      const Role by = flapping_partner(*source.character, *target.character, b.side, role);
+      const Role by = hf_inner::retarget::flapping_partner(*source.character, *target.character, b.side, role);
       if (by != role && b.number > 0) return nullptr;
       role = by;
     }

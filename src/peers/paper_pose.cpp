@@ -193,7 +193,7 @@ namespace {
 
 class PaperScheme final : public deform::PoseScheme {
  public:
-  PaperScheme() noexcept : deform::PoseScheme(bands_of_paper(), hf_inner::default_iterations, hf_inner::idle_limit) {}
+  PaperScheme() noexcept : deform::PoseScheme(bands_of_paper(), peers::default_iterations, peers::idle_limit) {}
   std::shared_ptr<const System> prepare(const surface::Core& core, const deform::ClusterWeights& weights,
                                         Memory& memory) const override {
     return make_shared_in<PaperSystem>(memory, core, weights, memory);

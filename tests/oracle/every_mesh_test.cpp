@@ -12,6 +12,7 @@
 #include "common/mesh_file.h"
 #include "hf/hf.h"
 #include "support/arrays.h"
+#include "support/full.h"
 
 namespace {
 
@@ -29,7 +30,7 @@ struct Given {
 
 // Meshes of the data that can be read, up to so many vertices; ten times as many when HF_FULL_TESTS is set.
 std::vector<Given> meshes(std::size_t most) {
-  if (std::getenv("HF_FULL_TESTS")) most *= 10;
+  if (hf_test::is_full()) most *= 10;
   std::vector<fs::path> files;
   for (const char* folder : {"meshes", "hostile"}) {
     if (!fs::exists(data_folder() / folder)) continue;

@@ -357,9 +357,9 @@ class Stages {
 void functions(Hash& hash) {
   for (int i = -20000; i < 20000; ++i) {
     const double x = 0.0009765625 * i, y = 0.125 * (i % 101);
-    const double values[6] = {hf_inner::sine(37 * x),           hf_inner::cosine(37 * x),
-                              hf_inner::arc_tangent(x, y),      hf_inner::arc_cosine(i / 20000.0),
-                              hf_inner::deform::exponential(x), hf_inner::deform::logarithm(x * x + 0.0009765625)};
+    const double values[6] = {hf_inner::sine(37 * x),      hf_inner::cosine(37 * x),
+                              hf_inner::arc_tangent(x, y), hf_inner::arc_cosine(i / 20000.0),
+                              hf_inner::exponential(x),    hf_inner::logarithm(x * x + 0.0009765625)};
     hash.take(values, 6);
   }
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "cases.h"
+#include "support/full.h"
 #include "support/pose_modes.h"
 
 namespace {
@@ -41,7 +42,7 @@ double total_twist(const surface::Core& core, Span<const Vec3> x) {
 }
 
 TEST(Drag, ATwistOf450DegreesIsKept) {
-  for (const double degrees : {180.0, 360.0, 450.0, 540.0}) {
+  for (const double degrees : hf_test::quick_and_full<double>({450}, {180, 360, 540})) {
     for (const int frames : {30, 90}) {
       const Case c = bar_twist(degrees, 10);
       Dragged d = drag(c, {}, frames, 5);

@@ -6,6 +6,7 @@
 
 #include "cases.h"
 #include "deform/pose_stack.h"
+#include "support/full.h"
 #include "support/parts.h"
 #include "surface/edited_core.h"
 #include "surface/link_change.h"
@@ -182,6 +183,7 @@ TEST_F(Moves, RigidPiecesGiveTheFramesOfNewPoses) {
 TEST_F(Moves, AFaintStrokeMovesNothing) {
   for (const bool free : {false, true}) {
     for (const bool following : {false, true}) {
+      if (free != following && !hf_test::is_full()) continue;
       Options options;
       options.free = free;
       options.following = following;

@@ -8,13 +8,12 @@
 #include "common/mesh_file.h"
 #include "factor/ordering.h"
 #include "factor/symbolic.h"
+#include "support/full.h"
 #include "support/hard_meshes.h"
 
 namespace {
 
 using hf_test::PlainMesh;
-
-bool full() { return std::getenv("HF_FULL_TESTS") != nullptr; }
 
 // entries and flops of the factor hf_create makes, over those of minimum degree
 struct Ratio {
@@ -54,7 +53,8 @@ TEST(CorpusFill, is_bounded_by_minimum_degree_on_real_meshes) {
   std::sort(files.begin(), files.end());
   int seen = 0;
   for (const auto& file : files) {
-    if (!full() && std::filesystem::file_size(file) > 1200000) continue;  // the large ones in the full form only
+    if (!hf_test::is_full() && std::filesystem::file_size(file) > 1200000)
+      continue;  // the large ones in the full form only
     const samples::SurfaceMesh read = samples::read_mesh_file(file);
     PlainMesh mesh;
     for (const glm::dvec3& p : read.positions) mesh.positions.insert(mesh.positions.end(), {p.x, p.y, p.z});

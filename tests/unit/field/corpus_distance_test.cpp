@@ -11,6 +11,7 @@
 #include "base/index.h"
 #include "common/mesh_file.h"
 #include "field/distances.h"
+#include "support/full.h"
 #include "support/meshes.h"
 
 namespace {
@@ -44,7 +45,7 @@ TEST(CorpusDistance, is_off_by_one_per_cent_at_most_and_by_three_at_worst_on_rea
   const char* given = std::getenv("HF_SHARED_DATA");
   const fs::path folder = (given ? fs::path(given) : fs::path(HF_SOURCE_DIR) / ".." / "shared" / "data") / "meshes";
   if (!fs::exists(folder)) GTEST_SKIP() << "no shared data here: " << folder << " is not there";
-  const bool full = std::getenv("HF_FULL_TESTS") != nullptr;
+  const bool full = hf_test::is_full();
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "field/peaks.h"
 #include "support/creature.h"
+#include "support/full.h"
 
 namespace {
 
@@ -105,7 +106,7 @@ TEST_P(CreatureTips, are_found_and_come_first) {
 TEST_P(CreatureTips, stay_after_remeshing) {
   for (const auto& [name, list] : tips) {
     std::vector<std::uint32_t> sizes{4000};
-    if (std::getenv("HF_FULL_TESTS")) sizes = {4000, 15000, 50000};
+    if (hf_test::is_full()) sizes = {4000, 15000, 50000};
     for (const std::uint32_t vertices : sizes) {
       const PlainMesh& mesh = creature(name, vertices);
       expect_tips(name, search(mesh, GetParam()), 0.06 * diagonal(mesh), std::to_string(vertices).c_str());

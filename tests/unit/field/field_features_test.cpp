@@ -9,6 +9,7 @@
 #include "field/scalar_field.h"
 #include "field/vector_field.h"
 #include "support/engines.h"
+#include "support/full.h"
 #include "support/meshes.h"
 
 namespace {
@@ -131,8 +132,8 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes) {
                {"bar 6.5K", from_shape(samples::bar(19))},
                {"cylinder", from_shape(samples::cylinder(16, 100))},
                // the long form takes the largest mesh, of 304,152 vertices
-               {"large torus", std::getenv("HF_FULL_TESTS") ? from_shape(samples::jittered_torus(551, 552))
-                                                            : from_shape(samples::jittered_torus(205, 206))}};
+               {"large torus", hf_test::is_full() ? from_shape(samples::jittered_torus(551, 552))
+                                                  : from_shape(samples::jittered_torus(205, 206))}};
   for (const auto& entry : cases) {
     hf_inner::field::ScalarField exact = make_field(entry.mesh, hf_test::EngineKind::refactor);
     hf_inner::field::ScalarField soft(exact.shared_core(), 1, 1000);

@@ -10,6 +10,7 @@
 #include "field/scalar_field.h"
 #include "mesh/geodesic_disc.h"
 #include "support/engines.h"
+#include "support/full.h"
 #include "support/meshes.h"
 
 namespace {
@@ -104,7 +105,7 @@ double middle_share(std::uint32_t side, double radius) {
 TEST(FiniteRadius, field_shares_stay_from_4096_to_262144_vertices_where_points_drift) {
   const double box = hf_test::make_core(from_shape(samples::jittered_torus(16, 16)))->mesh.report.bounding_box_diagonal;
   std::vector<std::uint32_t> sides = {64, 128, 256};
-  if (std::getenv("HF_FULL_TESTS")) sides.push_back(512);
+  if (hf_test::is_full()) sides.push_back(512);
   std::vector<double> discs, points;
   for (const std::uint32_t side : sides) {
     discs.push_back(middle_share(side, 0.06 * box));

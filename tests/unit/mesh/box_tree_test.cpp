@@ -90,7 +90,8 @@ TEST(BoxTree, VisitsEveryTriangleThatASegmentCrosses) {
     const Vec3 from{any(random), any(random), any(random)}, to{any(random), any(random), any(random)};
     const auto crossed = [&](std::size_t i) {
       bool entering = false;
-      return crossing(from, to - from, triangles[i][0], triangles[i][1], triangles[i][2], entering) >= 0;
+      return hf_inner::mesh::crossing(from, to - from, triangles[i][0], triangles[i][1], triangles[i][2], entering) >=
+             0;
     };
     int found = 0, all = 0;
     tree.along(from, to, [&](Index i) { return found += crossed(at(i)), false; });
@@ -104,13 +105,13 @@ TEST(BoxTree, VisitsEveryTriangleThatASegmentCrosses) {
 TEST(BoxTree, ACrossingHasASideAndAPlace) {
   const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
   bool entering = false;
-  EXPECT_DOUBLE_EQ(crossing({0.2, 0.2, 1}, {0, 0, -4}, a, b, c, entering), 0.25);
+  EXPECT_DOUBLE_EQ(hf_inner::mesh::crossing({0.2, 0.2, 1}, {0, 0, -4}, a, b, c, entering), 0.25);
   EXPECT_TRUE(entering);
-  EXPECT_DOUBLE_EQ(crossing({0.2, 0.2, -1}, {0, 0, 4}, a, b, c, entering), 0.25);
+  EXPECT_DOUBLE_EQ(hf_inner::mesh::crossing({0.2, 0.2, -1}, {0, 0, 4}, a, b, c, entering), 0.25);
   EXPECT_FALSE(entering);
-  EXPECT_LT(crossing({0.8, 0.8, 1}, {0, 0, -4}, a, b, c, entering), 0);
-  EXPECT_LT(crossing({0.2, 0.2, 1}, {0, 0, -0.5}, a, b, c, entering), 0);
-  EXPECT_LT(crossing({0.2, 0.2, 0}, {1, 0, 0}, a, b, c, entering), 0);
+  EXPECT_LT(hf_inner::mesh::crossing({0.8, 0.8, 1}, {0, 0, -4}, a, b, c, entering), 0);
+  EXPECT_LT(hf_inner::mesh::crossing({0.2, 0.2, 1}, {0, 0, -0.5}, a, b, c, entering), 0);
+  EXPECT_LT(hf_inner::mesh::crossing({0.2, 0.2, 0}, {1, 0, 0}, a, b, c, entering), 0);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "mesh/mesh_patch.h"
 #include "mesh/union_find.h"
 #include "support/dirty_meshes.h"
+#include "support/full.h"
 #include "support/hard_meshes.h"
 #include "support/parts.h"
 #include "unit/field/analysis_support.h"
@@ -254,8 +255,7 @@ std::vector<CurvePoint> random_line(const Shape& shape, std::mt19937& random, bo
 
 // Random lines: each is cut with all identities, or refused by a code that the header names.
 TEST(TraceCut, RandomLinesKeepTheSurfaceOrAreRefused) {
-  const char* const full = std::getenv("HF_FULL_TESTS");
-  const int rounds = full && *full && *full != '0' ? 2000 : 250;
+  const int rounds = hf_test::is_full() ? 2000 : 250;
   std::mt19937 random(11);
   int made = 0, refused = 0;
   const std::vector<PlainMesh> meshes = {

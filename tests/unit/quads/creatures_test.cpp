@@ -15,6 +15,7 @@
 #include "quads/surface_distance.h"
 #include "remesh/relax.h"
 #include "support/creature.h"
+#include "support/full.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 
@@ -139,7 +140,8 @@ TEST(Quads, OfASheetWithManyHolesHaveAllOfThem) {
 TEST(Quads, OfTheCreaturesAreValidEvenAndNear) {
   // Distances over the box diagonal; an edge length is 0.022. The horse was 0.019 away while steps of fitting were
   // undone for corners that unfolding mends.
-  for (const auto& [name, most] : {std::pair("biped", 0.01), {"horse", 0.014}, {"bull", 0.01}}) {
+  for (const auto& [name, most] :
+       hf_test::quick_and_full<std::pair<const char*, double>>({{"biped", 0.01}, {"horse", 0.014}}, {{"bull", 0.01}})) {
     const hf_test::PlainMesh mesh = plain(samples::welded_surface(hf_test::creature(name, 6000)));
     const auto core = hf_test::make_core(mesh);
     const QuadResult result = make(core);
@@ -172,7 +174,7 @@ TEST(Quads, OfTheSharedMeshesAreValidAndNear) {
                       {"boot.obj", 0.027, 0.4, 1.9, false},
                       {"cgal_blobby_3cc.off", 0.022, 0.7, 1.4, false},
                       {"bunny_35k_holes_isolated.obj", 0.012, 0.7, 1.4, false}};
-  const bool full = std::getenv("HF_FULL_TESTS") != nullptr;
+  const bool full = hf_test::is_full();
   for (const Row& row : rows) {
     if (!full && !row.quick) continue;
     const samples::SurfaceMesh file = samples::read_mesh_file(folder / row.name);

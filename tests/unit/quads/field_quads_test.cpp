@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <Eigen/Core>
 
 #include "assets/creature.h"
@@ -15,6 +14,7 @@
 #include "quads/untangle.h"
 #include "support/creature.h"
 #include "support/dense.h"
+#include "support/full.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 #include "unit/field/analysis_support.h"
@@ -573,7 +573,7 @@ TEST(FieldQuads, chords_beside_hubs_leave_valid_meshes_too) {
     std::int32_t removed[2] = {0, 0};
     // With a limit of 3 most vertices are hubs, so that what the whole walk refuses is refused without it as well.
     // The quick form leaves out what lies between.
-    const bool full = std::getenv("HF_FULL_TESTS") != nullptr;
+    const bool full = hf_test::is_full();
     for (const std::int32_t hub : {3, 5, 8, 1000000}) {
       for (const std::int32_t share : {2, 8, 64}) {
         if (!full && (hub == 5 || share == 2)) continue;

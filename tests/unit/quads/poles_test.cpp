@@ -10,6 +10,7 @@
 #include "assets/shapes.h"
 #include "base/error.h"
 #include "field/vector_field.h"
+#include "support/full.h"
 #include "support/meshes.h"
 
 namespace {
@@ -66,11 +67,12 @@ TEST(Poles, LieWhereTheyAreWanted) {
   EXPECT_GE(held_places(torus(), 3, edge), 11);
   const samples::ShapeMesh shape = samples::sphere(24);
   const auto sphere = hf_test::make_core({shape.positions, shape.triangles});
-  EXPECT_GE(held_places(sphere, 3, edge), 11);
   EXPECT_GE(held_places(sphere, 5, edge), 11);
   // evening out and fitting leave them there
-  EXPECT_GE(held_places(torus(), 3, edge, 30), 11);
   EXPECT_GE(held_places(sphere, 3, edge, 30), 11);
+  if (!hf_test::is_full()) return;
+  EXPECT_GE(held_places(sphere, 3, edge), 11);
+  EXPECT_GE(held_places(torus(), 3, edge, 30), 11);
 }
 
 // The directions of the ring make a quarter turn: their fourth degree has an index of 1 or -1.

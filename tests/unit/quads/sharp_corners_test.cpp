@@ -11,6 +11,7 @@
 #include "quads/field_quads.h"
 #include "quads/side_crosses.h"
 #include "remesh/quad_faults.h"
+#include "support/full.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 
@@ -104,7 +105,7 @@ remesh::QuadMesh quads_of(const std::shared_ptr<const surface::Core>& core, std:
 }
 
 TEST(SharpCorners, a_blade_of_many_teeth_gets_quads_as_good_as_one_of_twelve) {
-  for (const std::uint32_t teeth : {12u, 16u, 20u, 24u, 40u}) {
+  for (const std::uint32_t teeth : hf_test::quick_and_full<std::uint32_t>({12, 24, 40}, {16, 20})) {
     const auto core = hf_test::make_core(saw(teeth));
     for (const std::int32_t faces : {400, 1000}) {
       FieldQuadReport report;
@@ -121,9 +122,7 @@ TEST(SharpCorners, thin_teeth_keep_their_creases_from_quads_as_wide_as_a_tooth_t
   Memory memory;
   const auto core = hf_test::make_core(saw(40));
   // The quick form takes the ends, HF_FULL_TESTS what lies between.
-  std::vector<std::int32_t> counts = {1500, 9000};
-  if (std::getenv("HF_FULL_TESTS")) counts = {1500, 2000, 2600, 2900, 4000, 9000};
-  for (const std::int32_t faces : counts) {
+  for (const std::int32_t faces : hf_test::quick_and_full<std::int32_t>({1500, 9000}, {2000, 2600, 2900, 4000})) {
     FieldQuadReport report;
     const remesh::QuadMesh mesh = quads_of(core, faces, report);
     const Figures found = figures_of(mesh);

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -13,6 +12,7 @@
 
 #include "mesh_checks.h"
 #include "support/creature.h"
+#include "support/full.h"
 
 namespace {
 
@@ -191,14 +191,12 @@ TEST_P(CreatureSize, ItStandsOnTheGroundAndLooksAlongZ) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, CreatureSize,
-                         testing::Combine(testing::Values("horse", "bull", "biped"),
-                                          testing::ValuesIn(std::getenv("HF_FULL_TESTS")
-                                                                ? std::vector<uint32_t>{1000, 10000, 100000}
-                                                                : std::vector<uint32_t>{1000, 10000})),
-                         [](const auto& info) {
-                           return std::get<0>(info.param) + "_" + std::to_string(std::get<1>(info.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, CreatureSize,
+    testing::Combine(testing::Values("horse", "bull", "biped"),
+                     testing::ValuesIn(hf_test::is_full() ? std::vector<uint32_t>{1000, 10000, 100000}
+                                                          : std::vector<uint32_t>{1000, 10000})),
+    [](const auto& info) { return std::get<0>(info.param) + "_" + std::to_string(std::get<1>(info.param)); });
 
 class EachCreature : public testing::TestWithParam<std::string> {
  protected:

@@ -15,6 +15,7 @@
 #include "common/mesh_file.h"
 #include "gltf/gltf_read.h"
 #include "support/creature.h"
+#include "support/full.h"
 #include "support/program_support.h"
 #include "unit/gltf/gltf_support.h"
 
@@ -310,7 +311,7 @@ TEST(FieldProgram, is_finite_with_every_kind_of_field_on_every_mesh) {
   const char* given = std::getenv("HF_SHARED_DATA");
   const fs::path shared = (given ? fs::path(given) : fs::path(HF_SOURCE_DIR) / "../shared/data") / "meshes";
   if (!fs::is_directory(shared)) GTEST_SKIP() << shared << " is not there";
-  const char* full = std::getenv("HF_FULL_TESTS");
+  const bool full = hf_test::is_full();
   for (const auto& entry : fs::directory_iterator(shared)) {
     const std::string extension = entry.path().extension().string();
     if (extension != ".obj" && extension != ".off" && extension != ".ply") continue;

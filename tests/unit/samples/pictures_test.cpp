@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -11,6 +10,7 @@
 #include "gltf/file_bytes.h"
 #include "pictures/animation_file.h"
 #include "pictures/palette.h"
+#include "support/full.h"
 #include "support/program_support.h"
 #include "unit/gltf/gltf_support.h"
 
@@ -200,7 +200,7 @@ TEST(PicturesProgram, MakesThePicturesOfTheDocumentationAgain) {
   ASSERT_EQ(moving.frames.size(), 48u);
 
   // the long form draws every frame
-  const size_t every = std::getenv("HF_FULL_TESTS") ? 1 : 16;
+  const size_t every = hf_test::is_full() ? 1 : 16;
   const samples_test::TemporaryFolder folder;
   std::string said;
   ASSERT_EQ(hf_test::run(hf_test::quoted(HF_PICTURES_PROGRAM) + " " + hf_test::quoted(folder.path) + " --pairs " +

@@ -4,6 +4,7 @@
 
 #include "common/mesh_file.h"
 #include "gltf/animate.h"
+#include "support/full.h"
 #include "transfer/session.h"
 #include "unit/samples/transfer_program_support.h"
 
@@ -302,7 +303,7 @@ TEST(TransferOutputs, ClipsOfARealAnimalTakeFewBytes) {
   const size_t walk = bytes("Walk");
   std::printf("a walk takes %zu bytes\n", walk);
   EXPECT_LT(walk, 120000u);
-  if (!std::getenv("HF_FULL_TESTS")) return;
+  if (!hf_test::is_full()) return;
   const size_t all = bytes("all");
   std::printf("thirteen clips take %zu bytes\n", all);
   EXPECT_LT(all, 600000u);

@@ -2,11 +2,11 @@
 // files are read back, compared and validated.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "gltf/flat_mesh.h"
+#include "support/full.h"
 #include "unit/samples/transfer_program_support.h"
 
 namespace {
@@ -137,7 +137,7 @@ TEST(TransferProgram, AVertexInNoTriangleChangesNothing) {
       {"_far", {1e5, 2e4, -3e4}}, {"_nose", nose + glm::dvec3(0, 0, 0.01)}, {"_foot", foot - glm::dvec3(0, 0.02, 0)}};
   for (const auto& stray : strays) {
     for (const bool of_source : {true, false}) {
-      if (!std::getenv("HF_FULL_TESTS") && &stray != strays + 2 && of_source == (&stray - strays) % 2) continue;
+      if (!hf_test::is_full() && &stray != strays + 2 && of_source == (&stray - strays) % 2) continue;
       const fs::path changed = rewritten(of_source ? "horse" : "bull", &stray.place, stray.name);
       const json found = figures_of(of_source ? changed : source, of_source ? target : changed,
                                     std::string("stray") + stray.name + (of_source ? "_source" : "_target"));
@@ -150,7 +150,7 @@ TEST(TransferProgram, AVertexInNoTriangleChangesNothing) {
 // Every clip of a source on a target: whole outputs, feet and ground within the bars. The quick form has a target of
 // the source's rig and one of another.
 void check_real(const std::string& source, const std::string& target, const std::string& list) {
-  if (!std::getenv("HF_FULL_TESTS") && target != "q_Wolf.glb" && target != "farm_Cow.glb")
+  if (!hf_test::is_full() && target != "q_Wolf.glb" && target != "farm_Cow.glb")
     GTEST_SKIP() << "set HF_FULL_TESTS to run it";
   if (!fs::exists(data() / source) || !fs::exists(data() / target))
     GTEST_SKIP() << "no " << source << " or " << target << " under " << data();

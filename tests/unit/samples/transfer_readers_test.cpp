@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "gltf/animate.h"
+#include "support/full.h"
 #include "unit/samples/transfer_program_support.h"
 
 namespace {
@@ -157,7 +158,7 @@ void check_godot(const std::string& kind) {
 }
 
 TEST(TransferReaders, GodotPosesTheVerticesAsWeDo) {
-  if (!std::getenv("HF_FULL_TESTS")) GTEST_SKIP() << "the import takes ten seconds; set HF_FULL_TESTS to run it";
+  if (!hf_test::is_full()) GTEST_SKIP() << "the import takes ten seconds; set HF_FULL_TESTS to run it";
   if (!works("command -v godot3-server")) GTEST_SKIP() << "no godot3-server on the path";
   for (const char* kind : {"skin", "own-skin"}) check_godot(kind);
 }

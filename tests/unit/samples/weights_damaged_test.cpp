@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <random>
 
 #include "gltf/gltf_read.h"
+#include "support/full.h"
 #include "unit/gltf/gltf_support.h"
 #include "weights/rig.h"
 
@@ -174,7 +174,7 @@ TEST(DamagedModels, NoVariantFailsAndNoVertexIsBare) {
   }
   ASSERT_GE(rigs.size(), 28u);
   constexpr size_t all_variants = 1000;
-  const size_t count = std::getenv("HF_FULL_TESTS") ? all_variants : rigs.size();
+  const size_t count = hf_test::is_full() ? all_variants : rigs.size();
   size_t failed = 0, vertices = 0;
   std::map<std::string, size_t> damages;
   for (size_t i = 0; i < count; ++i) {

@@ -3,6 +3,7 @@
 // engines in lockstep, against the dense oracle or a fresh elimination.
 #include "factor/factor_bytes.h"
 #include "support/engines.h"
+#include "support/full.h"
 #include "support/hard_meshes.h"
 #include "unit/solve/edit_script.h"
 
@@ -11,8 +12,6 @@ namespace {
 using hf_test::EditScript;
 using hf_test::engines;
 using hf_test::PlainMesh;
-
-bool full() { return std::getenv("HF_FULL_TESTS") != nullptr; }
 
 PlainMesh several_components() {
   PlainMesh mesh = hf_test::grid(7, 5, 1, 0.3);
@@ -90,9 +89,9 @@ class EditScripts : public testing::TestWithParam<Surface> {};
 
 TEST_P(EditScripts, give_the_dense_oracles_field_with_every_engine) {
   const auto core = hf_test::make_core(GetParam().make());
-  for (std::uint32_t seed = 1; seed <= (full() ? 10u : 1u); ++seed) {
+  for (std::uint32_t seed = 1; seed <= (hf_test::is_full() ? 10u : 1u); ++seed) {
     EditScript script(core, engines(), 2, seed, seed % 2 ? 0.0 : 1e4);
-    run(script, 10000, 25, full() ? 200 : 40,
+    run(script, 10000, 25, hf_test::is_full() ? 200 : 40,
         [&] { expect_dense_oracle(script, 1e-10, script.shift != 0 ? 1e-3 : 1e-5); });
   }
 }
@@ -102,7 +101,7 @@ TEST_P(EditScripts, stay_exact_when_sites_were_moved_into_the_factor) {
     const auto core = loaded ? loaded_core(GetParam().make()) : hf_test::make_core(GetParam().make());
     EditScript script(core, {hf_test::EngineKind::green}, 1, 31 + loaded, 1e4);
     int checked_inside = 0, checked_freed = 0;
-    for (int round = 0; round < (full() ? 40 : 5); ++round) {
+    for (int round = 0; round < (hf_test::is_full() ? 40 : 5); ++round) {
       SCOPED_TRACE(testing::Message() << "loaded " << loaded << " round " << round);
       script.apply(0, 0, 0, core->size() / 4, true);  // hard vertices, all at once
       script.fields[0]->prepare_rebase();
@@ -137,7 +136,7 @@ TEST(LongEditScripts, agree_with_a_fresh_elimination_and_never_refactor_below_th
   append(mesh, hf_test::dirty(20), 100);
   const auto core = hf_test::make_core(mesh);
   EditScript script(core, {hf_test::EngineKind::green}, 1, 5, 1e4);
-  run(script, full() ? 100000 : 10000, 60, full() ? 60 : 12, [&] {
+  run(script, hf_test::is_full() ? 100000 : 10000, 60, hf_test::is_full() ? 60 : 12, [&] {
     expect_fresh_elimination(script, 1e-10);
     EXPECT_EQ(script.fields[0]->engine().counters().factorisations, 1u);
     EXPECT_EQ(script.fields[0]->engine().counters().rebases, 0u);

@@ -86,9 +86,9 @@ class LinkEdit : public ::testing::Test {
     for (int i = 0; i < added; ++i) more.push_back(link(across));
     links = kept;
     links.insert(links.end(), more.begin(), more.end());
-    return Geometry::relinked(from.geometry,
-                              edited_links(mesh(), from.geometry->links.get(), {removed.data(), removed.size()},
-                                           {more.data(), more.size()}, *from.memory));
+    return Geometry::relinked(from.geometry, hf_inner::surface::edited_links(mesh(), from.geometry->links.get(),
+                                                                             {removed.data(), removed.size()},
+                                                                             {more.data(), more.size()}, *from.memory));
   }
   Stiffness stroke(const Stiffness& before) {
     auto out = std::make_shared<hf_inner::Vector<double>>(at(mesh().vertex_count()), 1.0, unlinked_->memory.get());

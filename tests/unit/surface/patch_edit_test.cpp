@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "mesh/cut_edges.h"
 #include "solve/site_solver.h"
+#include "support/full.h"
 #include "support/hard_meshes.h"
 #include "support/oracle.h"
 #include "surface/edited_core.h"
@@ -360,7 +361,7 @@ TEST(PatchEdit, SequencesHaveTheFieldsOfFreshSurfaces) {
 
 // 10,000 edits (of 300 in the short form): the difference from fresh surfaces does not grow.
 TEST(PatchEdit, ManyEditsAddNoError) {
-  const int steps = std::getenv("HF_FULL_TESTS") ? 10000 : 300;
+  const int steps = hf_test::is_full() ? 10000 : 300;
   std::mt19937 random(11);
   Model model(three_pieces());
   std::shared_ptr<const Core> core = make(model.now());

@@ -1,8 +1,8 @@
 // More pairs of true correspondences make a transfer better: clusters follow from the pairs.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 
+#include "support/full.h"
 #include "unit/transfer/transfer_support.h"
 
 namespace {
@@ -118,7 +118,7 @@ struct Twins {
 TEST(TransferMorePairs, TheErrorFallsWithTruePairs) {
   std::vector<std::pair<uint32_t, uint32_t>> sizes = {{2500, 3600}};
   std::vector<const char*> names = {"horse"};
-  if (std::getenv("HF_FULL_TESTS")) {
+  if (hf_test::is_full()) {
     sizes.push_back({1500, 6000});
     names.push_back("bull");
   }

@@ -7,6 +7,7 @@
 #include "carry_support.h"
 #include "mesh/nearest_triangle.h"
 #include "support/decimate.h"
+#include "support/full.h"
 
 namespace {
 
@@ -155,7 +156,7 @@ class Fit {
 
 // The quick form takes one creature at one level, HF_FULL_TESTS all of them.
 TEST(CarriedLevels, PoseWithinASmallFactorOfTheBestFit) {
-  const bool full = std::getenv("HF_FULL_TESTS") != nullptr;
+  const bool full = hf_test::is_full();
   const std::vector<const char*> names =
       full ? std::vector<const char*>{"biped", "horse", "bull"} : std::vector<const char*>{"horse"};
   for (const char* name : names) {

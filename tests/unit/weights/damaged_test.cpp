@@ -108,10 +108,10 @@ TEST(DamagedWeights, PiecesWithoutInformationFindTheirCarriers) {
   const auto core = make_core(mesh);
   hf_inner::Memory& memory = *core->memory;
   hf_inner::Vector<std::uint8_t> solved(3, 0, &memory);
-  const auto none = find_carriers(core->mesh, solved, memory, *core->jobs);
+  const auto none = hf_inner::weights::find_carriers(core->mesh, solved, memory, *core->jobs);
   EXPECT_EQ(none.of[0], -1);
   solved[0] = 1;
-  const auto found = find_carriers(core->mesh, solved, memory, *core->jobs);
+  const auto found = hf_inner::weights::find_carriers(core->mesh, solved, memory, *core->jobs);
   EXPECT_EQ(found.carried_pieces, 1u);
   EXPECT_EQ(found.rigid_pieces, 1u);
   EXPECT_EQ(found.rigid[2], 1);
@@ -121,7 +121,8 @@ TEST(DamagedWeights, PiecesWithoutInformationFindTheirCarriers) {
       const double d = norm(core->mesh.positions[at(v)] - core->mesh.positions[at(w)]);
       if (core->mesh.component[at(w)] == 0 && d < best) best = d;
     }
-    EXPECT_LE(norm(core->mesh.positions[at(v)] - core->mesh.positions[at(found.of[at(v)])]), best * (1 + 1e-12));
+    EXPECT_LE(hf_inner::norm(core->mesh.positions[at(v)] - core->mesh.positions[at(found.of[at(v)])]),
+              best * (1 + 1e-12));
     if (core->mesh.component[at(v)] == 0) {
       EXPECT_EQ(found.of[at(v)], v);
     }
