@@ -346,16 +346,24 @@ typedef struct hf_gaps_info {
   uint32_t contact_count;  /* as in hf_links_info; the fields above leave contacts out */
   double worst_contact;    /* the widest gap of a contact; 0 without contacts */
   uint32_t contact_vertex; /* vertex of your mesh in that contact; HF_NO_INDEX without contacts */
+  uint32_t touching_count; /* vertices that touch a linked piece at rest, once for each such piece */
+  double worst_opening;    /* the widest opening of a touching vertex; 0 without one */
+  uint32_t opening_vertex; /* vertex of your mesh with that opening; HF_NO_INDEX where nothing opened */
   uint32_t reserved;       /* 0 */
 } hf_gaps_info;
 
 /* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
  * apart than at rest, and 0 if they are nearer. The gap of a contact (hf_links_info) is measured in the same way.
- * positions: [vertex_count][3] of float or double: the deformed mesh. It can come from a pose, a transfer or any other
- * source.
- * out_gaps: NULL, or double[capacity], out_info->link_count of them, in the order of hf_surface_get_links. out_info:
- * NULL, or a struct. Set one of the two at least. Errors: HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex).
- * Thread safety: reads `surface`. Since 0.1. */
+ * A vertex touches a piece if it is nearer to it than 0.5 % of the bounding box. With joint_parents its joint must be
+ * the joint of the nearest point there, or the parent or child of that joint. Each touches one point of the piece: the
+ * nearest at rest. Its opening is the smaller of two distances, minus the distance at rest: its own distance from the
+ * piece, and the distance of the point that it touched from the piece of the vertex. So a piece that slides along
+ * another opens no vertex, but its links have gaps. Touching vertices are found where links are: by hf_surface_create
+ * and hf_surface_relink. Links that an edit adds have none. positions: [vertex_count][3] of float or double: the
+ * deformed mesh. It can come from a pose, a transfer or any other source. out_gaps: NULL, or double[capacity],
+ * out_info->link_count of them, in the order of hf_surface_get_links. out_info: NULL, or a struct. Set one of the two
+ * at least. Errors: HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex). Thread safety: reads `surface`. Since
+ * 0.1. */
 HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_array* positions, uint32_t capacity,
                                          double* out_gaps, hf_gaps_info* out_info);
 

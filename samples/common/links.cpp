@@ -68,10 +68,15 @@ std::string gaps_sentence(hf_surface surface, const std::vector<double>& positio
   const hf_gaps_info info = measure(surface, positions);
   if (info.link_count == 0) return {};
   char text[160];
-  std::snprintf(text, sizeof text,
-                "gaps between linked pieces: %.2g %% of the box at 95 of 100 links, %.2g %% at worst",
+  std::string out;
+  if (info.touching_count > 0) {
+    std::snprintf(text, sizeof text, "linked pieces open by %.2g %% of the box where they touch; ",
+                  100 * info.worst_opening / diagonal);
+    out = text;
+  }
+  std::snprintf(text, sizeof text, "gaps of links: %.2g %% of the box at 95 of 100 links, %.2g %% at worst",
                 100 * info.percentile_95 / diagonal, 100 * info.worst / diagonal);
-  std::string out = text;
+  out += text;
   if (info.contact_count > 0) {
     std::snprintf(text, sizeof text, "; pieces that only touch open by %.2g %% at worst",
                   100 * info.worst_contact / diagonal);
@@ -82,15 +87,16 @@ std::string gaps_sentence(hf_surface surface, const std::vector<double>& positio
 
 void WidestGap::take(const std::vector<double>& positions, const std::string& place) {
   const hf_gaps_info info = measure(surface_, positions);
-  if (info.link_count == 0 || info.worst <= worst_) return;
-  worst_ = info.worst;
+  const double open = info.touching_count > 0 ? info.worst_opening : info.worst;
+  if (info.link_count == 0 || open <= worst_) return;
+  worst_ = open;
   place_ = place;
   positions_ = positions;
 }
 
 std::string WidestGap::sentence(double diagonal) const {
   if (worst_ < 0) return {};
-  return "widest " + gaps_sentence(surface_, positions_, diagonal) + ", " + place_;
+  return "widest " + place_ + ": " + gaps_sentence(surface_, positions_, diagonal);
 }
 
 std::string unreached_sentence(hf_surface surface, const std::vector<uint32_t>& reached, const std::string& what,

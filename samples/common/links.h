@@ -41,17 +41,18 @@ inline std::string links_sentence(hf_surface surface) {
   return more.empty() ? out : out + " (" + more + ")";
 }
 
-// "gaps between linked pieces: 0.08 % of the box at 95 of 100 links, 0.6 % at worst; pieces that only touch open by 4 %
-// at worst"; empty without links. diagonal: of the box. positions: xyz of every vertex.
+// "linked pieces open by 0.3 % of the box where they touch; gaps of links: 0.08 % of the box at 95 of 100 links, 0.6 %
+// at worst; pieces that only touch open by 4 % at worst"; empty without links. diagonal: of the box. positions: xyz of
+// every vertex.
 std::string gaps_sentence(hf_surface surface, const std::vector<double>& positions, double diagonal);
 
-// The frame with the widest gap between linked pieces, of all frames that were taken.
+// The frame in which linked pieces open widest, of all frames that were taken.
 class WidestGap {
  public:
   explicit WidestGap(hf_surface surface) : surface_(surface) {}
   // positions: xyz of every vertex. place: such as "at 0.5 s". Throws std::runtime_error with the library's message.
   void take(const std::vector<double>& positions, const std::string& place);
-  // "widest gaps between linked pieces: ..., at 0.5 s"; empty without links.
+  // "widest at 0.5 s: linked pieces open by ..."; empty without links.
   std::string sentence(double diagonal) const;
 
  private:

@@ -3,6 +3,7 @@
 
 #include "capi/objects.h"
 #include "mesh/link_intake.h"
+#include "mesh/touching.h"
 #include "surface/surface_intake.h"
 
 namespace hf_inner::capi {
@@ -80,13 +81,19 @@ hf_result hf_surface_measure_gaps(hf_surface surface, const hf_array* positions,
     const std::size_t count = shape.links ? shape.links->links.size() : 0;
     hf_gaps_info info{};
     info.link_count = static_cast<std::uint32_t>(count);
-    info.worst_link = info.contact_vertex = HF_NO_INDEX;
+    info.worst_link = info.contact_vertex = info.opening_vertex = HF_NO_INDEX;
     if (out_gaps && capacity < count && out_info) write_struct(out_info, info);
     check_capacity(out_gaps, capacity, count, "capacity");
     Vector<double> gaps(count, 0.0, object->memory.get());
     if (count > 0) mesh::measure_gaps(shape.mesh, shape.links->links, posed, gaps);
     if (shape.links && !shape.links->open.empty())
       measure_contacts(shape.mesh, shape.links->open, posed, *object->memory, info);
+    if (shape.links) {
+      const mesh::Opening opening = mesh::measure_opening(shape.mesh, *shape.links, posed, *object->memory);
+      info.touching_count = static_cast<std::uint32_t>(shape.links->touching.size());
+      info.worst_opening = opening.worst;
+      info.opening_vertex = mesh::given_vertex(shape.mesh, opening.vertex);
+    }
     if (out_gaps) std::copy(gaps.begin(), gaps.end(), out_gaps);
     const mesh::GapSummary found = mesh::summarise_gaps(gaps);
     info.worst = found.worst;

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "base/progress.h"
-#include "mesh/contact_search.h"
 #include "mesh/link_constants.h"
 #include "mesh/union_find.h"
 
@@ -46,8 +45,8 @@ void snap_to_corner(const Mesh& mesh, const Index* corner, double within, double
 
 class LinkSearch {
  public:
-  LinkSearch(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, Memory& memory, JobRunner* jobs,
-             Links& out)
+  LinkSearch(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, const ContactSearch& contacts,
+             Memory& memory, JobRunner* jobs, Links& out)
       : mesh_(mesh),
         areas_(areas),
         options_(options),
@@ -55,7 +54,7 @@ class LinkSearch {
         jobs_(jobs),
         out_(out),
         pieces_(at(mesh.component_count())),
-        contacts_(mesh, options.skin, memory),
+        contacts_(contacts),
         area_(pieces_, 0.0, &memory),
         forced_(pieces_, 0, &memory),
         sheet_(pieces_, 0, &memory),
@@ -119,7 +118,7 @@ class LinkSearch {
   JobRunner* jobs_;
   Links& out_;
   const std::size_t pieces_;
-  const ContactSearch contacts_;
+  const ContactSearch& contacts_;
   Vector<double> area_;          // by piece
   Vector<std::uint8_t> forced_;  // by piece: 1 light, 2 heavy
   Vector<std::uint8_t> sheet_;   // by piece: 1 if it lies over a larger piece
@@ -507,12 +506,12 @@ void LinkSearch::find_below(Index piece, Vector<Contact>& best) const {
 
 }  // namespace
 
-void search_links(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, Memory& memory,
-                  JobRunner* jobs, Links& out) {
+void search_links(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, const ContactSearch& contacts,
+                  Memory& memory, JobRunner* jobs, Links& out) {
   if (mesh.component_count() > most_linked_pieces)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%d pieces; at most %d are linked automatically, so give a list of links",
          mesh.component_count(), most_linked_pieces);
-  LinkSearch(mesh, areas, options, memory, jobs, out).run();
+  LinkSearch(mesh, areas, options, contacts, memory, jobs, out).run();
 }
 
 }  // namespace hf_inner::mesh

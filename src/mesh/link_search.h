@@ -5,7 +5,7 @@
 // to the nearest points of the other side's triangles. A light piece links at every vertex that is near a piece below.
 // Cost: one search in a tree of boxes for every vertex near another piece's box.
 #pragma once
-#include "mesh/links.h"
+#include "mesh/contact_search.h"
 
 namespace hf_inner::mesh {
 
@@ -13,8 +13,9 @@ namespace hf_inner::mesh {
 // 20,000 loose leaves; double lets a mistake run longer. links_test reaches it with single triangles.
 constexpr Index most_linked_pieces = 20000;
 
-// Appends links to out.links and marks light pieces in out.light. out.piece: by vertex.
-void search_links(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, Memory& memory,
-                  JobRunner* jobs, Links& out);
+// contacts: of the same mesh and skin. Appends links to out.links and marks light pieces in out.light. out.piece: by
+// vertex.
+void search_links(const Mesh& mesh, Span<const double> areas, const LinkOptions& options, const ContactSearch& contacts,
+                  Memory& memory, JobRunner* jobs, Links& out);
 
 }  // namespace hf_inner::mesh

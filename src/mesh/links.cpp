@@ -7,6 +7,7 @@
 #include "base/stable_sort.h"
 #include "mesh/link_constants.h"
 #include "mesh/link_search.h"
+#include "mesh/touching.h"
 #include "mesh/union_find.h"
 
 namespace hf_inner::mesh {
@@ -98,8 +99,11 @@ std::shared_ptr<const Links> make_links(const Mesh& mesh, Span<const double> are
            "entry %zu of heavy_vertices: its piece is in light_vertices too", i);
   }
   if (options.mode == LinkMode::list) take_list(mesh, options, out);
-  if (options.mode == LinkMode::pieces && mesh.component_count() > 1)
-    search_links(mesh, areas, options, memory, jobs, out);
+  if (mesh.component_count() > 1 && (options.mode == LinkMode::pieces || !out.links.empty())) {
+    const ContactSearch contacts(mesh, options.skin, memory);
+    if (options.mode == LinkMode::pieces) search_links(mesh, areas, options, contacts, memory, jobs, out);
+    find_touching(contacts, memory, jobs, out);
+  }
   find_groups(out, memory);
   return made;
 }

@@ -51,10 +51,18 @@ struct LinkOptions {
   Span<const Index> light, heavy;  // inner vertices whose pieces are light, or not
 };
 
+// A vertex that touches a piece linked to its own, and the nearest triangle of that piece at rest.
+struct Touch {
+  Index vertex, triangle;
+  double length;  // at rest, in the unit of the inner mesh
+};
+
 struct Links {
-  explicit Links(Memory& memory) : links(&memory), open(&memory), piece(memory), light(&memory), group(&memory) {}
+  explicit Links(Memory& memory)
+      : links(&memory), open(&memory), touching(&memory), piece(memory), light(&memory), group(&memory) {}
   Vector<Link> links;
   Vector<Link> open;           // contacts of joints far apart in the skeleton: measured, but no springs
+  Vector<Touch> touching;      // of linked pieces, by pair
   SharedVector<Index> piece;   // by vertex: the components of the mesh without links
   Vector<std::uint8_t> light;  // by piece
   Vector<Index> group;         // by piece, numbered by their first pieces

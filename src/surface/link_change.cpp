@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesh/touching.h"
+
 namespace hf_inner::surface {
 namespace {
 
@@ -60,6 +62,7 @@ std::shared_ptr<const mesh::Links> edited_links(const mesh::Mesh& mesh, const me
     made->light.assign(links->light.begin(), links->light.end());
     for (std::size_t i = 0; i < links->links.size(); ++i)
       if (!removed[i]) made->links.push_back(links->links[i]);
+    mesh::keep_touching(*links, mesh, memory, *made);
   } else {
     made->light.assign(at(mesh.component_count()), 0);
   }

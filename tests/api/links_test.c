@@ -312,11 +312,50 @@ static void a_pose_takes_linked_pieces_along_and_gaps_are_measured(void** state)
     assert_int_equal(gaps.link_count, links_info_of(linked).link_count);
     assert_true(with ? gaps.worst < 1e-5 : gaps.worst > 3.5 && gaps.percentile_95 > 3.5);
     assert_true(gaps.worst == each[gaps.worst_link]);
+    assert_int_equal(gaps.touching_count, 0); /* a tenth of a unit is too far */
     assert_ok(hf_surface_measure_gaps(plain, &desc, 0, NULL, &gaps));
     assert_int_equal(gaps.link_count, 0);
+    assert_int_equal(gaps.touching_count, 0);
+    assert_int_equal(gaps.opening_vertex, HF_NO_INDEX);
     assert_int_equal(gaps.worst_link, HF_NO_INDEX);
     hf_pose_destroy(pose);
   }
+}
+
+/* A tile that lies on another: what it leaves opens, what it slides along does not. */
+static void a_touching_piece_that_slides_opens_nothing(void** state) {
+  (void)state;
+  float tiles[24];
+  uint32_t triangles[12];
+  for (int tile = 0; tile < 2; ++tile) {
+    for (int v = 0; v < 4; ++v) {
+      const float corner[3] = {(float)(v % 2) * (tile ? 0.5f : 2.0f), (float)(v / 2) * (tile ? 0.5f : 2.0f),
+                               tile ? 0.005f : 0};
+      memcpy(tiles + 12 * tile + 3 * v, corner, sizeof corner);
+    }
+    const uint32_t two[6] = {0, 1, 3, 0, 3, 2};
+    for (int k = 0; k < 6; ++k) triangles[6 * tile + k] = two[k] + 4 * (uint32_t)tile;
+  }
+  const hf_links_desc links = automatic();
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.positions = HF_ARRAY(tiles, 8);
+  desc.triangles = HF_ARRAY(triangles, 4);
+  desc.links = &links;
+  hf_surface surface = NULL;
+  assert_ok(hf_surface_create(&desc, &surface));
+  for (int axis = 0; axis < 3; axis += 2) {
+    float moved[24];
+    memcpy(moved, tiles, sizeof moved);
+    for (int v = 4; v < 8; ++v) moved[3 * v + axis] += 0.75f;
+    const hf_array rows = HF_ARRAY(moved, 8);
+    hf_gaps_info gaps = HF_INIT(hf_gaps_info);
+    assert_ok(hf_surface_measure_gaps(surface, &rows, 0, NULL, &gaps));
+    assert_true(gaps.touching_count >= 4);
+    assert_true(gaps.worst > 0.7);
+    assert_true(axis == 0 ? gaps.worst_opening < 1e-6 : fabs(gaps.worst_opening - 0.75) < 1e-6);
+    if (axis == 2) assert_true(gaps.opening_vertex < 8);
+  }
+  hf_surface_destroy(surface);
 }
 
 static void a_range_of_a_frame_has_the_rigid_piece_of_the_whole(void** state) {
@@ -496,6 +535,7 @@ int main(void) {
       cmocka_unit_test(a_saved_factor_needs_its_links),
       cmocka_unit_test(other_links_keep_the_ordering_where_the_pattern_allows),
       cmocka_unit_test(a_pose_takes_linked_pieces_along_and_gaps_are_measured),
+      cmocka_unit_test(a_touching_piece_that_slides_opens_nothing),
       cmocka_unit_test(a_range_of_a_frame_has_the_rigid_piece_of_the_whole),
       cmocka_unit_test(bad_links_are_refused_by_index_and_change_nothing),
   };

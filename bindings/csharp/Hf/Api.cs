@@ -634,6 +634,12 @@ namespace Hf
         public double WorstContact;
         /// <summary>vertex of your mesh in that contact; uint.MaxValue without contacts</summary>
         public uint ContactVertex;
+        /// <summary>vertices that touch a linked piece at rest, once for each such piece</summary>
+        public uint TouchingCount;
+        /// <summary>the widest opening of a touching vertex; 0 without one</summary>
+        public double WorstOpening;
+        /// <summary>vertex of your mesh with that opening; uint.MaxValue where nothing opened</summary>
+        public uint OpeningVertex;
 
         internal GapsInfo(hf_gaps_info* raw)
         {
@@ -644,6 +650,9 @@ namespace Hf
             ContactCount = raw->contact_count;
             WorstContact = raw->worst_contact;
             ContactVertex = raw->contact_vertex;
+            TouchingCount = raw->touching_count;
+            WorstOpening = raw->worst_opening;
+            OpeningVertex = raw->opening_vertex;
         }
     }
 
@@ -2624,7 +2633,13 @@ namespace Hf
 
         /// <summary>Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther
         /// its ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured
-        /// in the same way.
+        /// in the same way. A vertex touches a piece if it is nearer to it than 0.5 % of the bounding box. With
+        /// joint_parents its joint must be the joint of the nearest point there, or the parent or child of that
+        /// joint. Each touches one point of the piece: the nearest at rest. Its opening is the smaller of two
+        /// distances, minus the distance at rest: its own distance from the piece, and the distance of the point
+        /// that it touched from the piece of the vertex. So a piece that slides along another opens no vertex, but
+        /// its links have gaps. Touching vertices are found where links are: by Surface and Surface.Relink. Links
+        /// that an edit adds have none.
         ///
         /// positions: [vertexCount x 3] of float or double: the deformed mesh. It can come from a pose, a transfer
         ///     or any other source.

@@ -398,6 +398,9 @@ namespace Hf.Native
         public uint contact_count;
         public double worst_contact;
         public uint contact_vertex;
+        public uint touching_count;
+        public double worst_opening;
+        public uint opening_vertex;
         public uint reserved;
     }
 

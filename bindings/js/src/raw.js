@@ -340,7 +340,7 @@ export const layouts = {
     contact_count: ['u32', [20, 20], 0],
     longest_tree_link: ['f64', [24, 24], 0],
   } },
-  hf_gaps_info: { size: [48, 48], fields: {
+  hf_gaps_info: { size: [64, 64], fields: {
     struct_size: ['u32', [0, 0], 0],
     link_count: ['u32', [4, 4], 0],
     percentile_95: ['f64', [8, 8], 0],
@@ -349,7 +349,10 @@ export const layouts = {
     contact_count: ['u32', [28, 28], 0],
     worst_contact: ['f64', [32, 32], 0],
     contact_vertex: ['u32', [40, 40], 0],
-    reserved: ['u32', [44, 44], 0],
+    touching_count: ['u32', [44, 44], 0],
+    worst_opening: ['f64', [48, 48], 0],
+    opening_vertex: ['u32', [56, 56], 0],
+    reserved: ['u32', [60, 60], 0],
   } },
   hf_patch_desc: { size: [40, 56], fields: {
     struct_size: ['u32', [0, 0], 0],

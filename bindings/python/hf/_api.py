@@ -1377,7 +1377,12 @@ class Surface(Object):
     def measure_gaps(self, positions: ArrayLike, *, info: Optional[GapsInfo] = None) -> np.ndarray[Any, Any]:
         """Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
         ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured in the
-        same way.
+        same way. A vertex touches a piece if it is nearer to it than 0.5 % of the bounding box. With joint_parents
+        its joint must be the joint of the nearest point there, or the parent or child of that joint. Each touches one
+        point of the piece: the nearest at rest. Its opening is the smaller of two distances, minus the distance at
+        rest: its own distance from the piece, and the distance of the point that it touched from the piece of the
+        vertex. So a piece that slides along another opens no vertex, but its links have gaps. Touching vertices are
+        found where links are: by Surface and Surface.relink. Links that an edit adds have none.
 
         positions: (vertex_count, 3) of float or double: the deformed mesh. It can come from a pose, a transfer or any
             other source.

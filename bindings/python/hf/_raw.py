@@ -468,10 +468,14 @@ class hf_gaps_info(Struct):
     contact_count: int
     worst_contact: float
     contact_vertex: int
+    touching_count: int
+    worst_opening: float
+    opening_vertex: int
     reserved: int
     _fields_ = [("struct_size", c_uint32), ("link_count", c_uint32), ("percentile_95", c_double), ("worst", c_double),
                 ("worst_link", c_uint32), ("contact_count", c_uint32), ("worst_contact", c_double), ("contact_vertex",
-                c_uint32), ("reserved", c_uint32)]
+                c_uint32), ("touching_count", c_uint32), ("worst_opening", c_double), ("opening_vertex", c_uint32),
+                ("reserved", c_uint32)]
 
 
 class hf_patch_desc(Struct):

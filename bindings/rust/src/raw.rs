@@ -481,6 +481,9 @@ pub struct hf_gaps_info {
     pub contact_count: u32,
     pub worst_contact: f64,
     pub contact_vertex: u32,
+    pub touching_count: u32,
+    pub worst_opening: f64,
+    pub opening_vertex: u32,
     pub reserved: u32,
 }
 
@@ -1704,7 +1707,7 @@ figures! {
     hf_links_info: struct_size piece_count link_count light_piece_count lone_piece_count contact_count
         longest_tree_link;
     hf_gaps_info: struct_size link_count percentile_95 worst worst_link contact_count worst_contact contact_vertex
-        reserved;
+        touching_count worst_opening opening_vertex reserved;
     hf_surface_statistics: struct_size unknown_count weld_ms operator_ms ordering_ms symbolic_ms numeric_ms
         factor_entries factor_bytes factor_flops memory_bytes peak_memory_bytes load_ms factor_loaded
         factor_borrowed links_ms;
