@@ -521,7 +521,8 @@ struct RetargetOptions {
   hf_retarget_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.
+// The skin of a character: its surface, and the joints of each vertex. These are the arrays of a glTF skin as the file
+// has them: with inverse_binds the library moves the surface from the pose of binding to the pose `rest`.
 struct Skin {
   // `[vertex_count x 3]`
   std::vector<float> positions{};
@@ -531,6 +532,9 @@ struct Skin {
   std::vector<uint32_t> joints{};
   // `[vertex_count x influence_count]` >= 0; a vertex whose weights are all 0 has no joint
   std::vector<float> weights{};
+  // 1: positions are in the pose `rest` and in the space of the joints, also with inverse_binds. 0: in the pose of
+  // inverse_binds if there are any
+  bool at_rest = false;
   hf_skin_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
@@ -4279,6 +4283,7 @@ inline hf_retarget_desc RetargetOptions::fill([[maybe_unused]] Call& c,
 
 inline hf_skin_desc Skin::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_skin_desc>();
+  desc.at_rest = at_rest ? 1 : 0;
   desc.positions = c.array(positions, false, "positions", {prefix + "vertex_count", "3"});
   desc.triangles = c.array(triangles, false, "triangles", {prefix + "triangle_count", "3"});
   desc.joints = c.array(joints, false, "joints", {prefix + "vertex_count", prefix + "influence_count"});

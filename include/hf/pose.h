@@ -121,8 +121,8 @@ HF_API hf_result hf_pose_add_handle_at(hf_pose pose, const double* point, double
 HF_API hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, const uint32_t* handles);
 
 /* A rigid motion of a handle from its rest place. It takes a point p to rotation (p - centroid) + centroid +
- * translation. The centroid is the mean of the region's rest positions, in the unit of the mesh (hf_pose_get_handle
- * writes it). */
+ * translation. The centroid is the mean of the region's rest positions, in the unit of the mesh: copies of a vertex
+ * along seams count once (hf_pose_get_handle writes it). */
 typedef struct hf_transform {
   double rotation[4]; /* unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free */
   double translation[3]; /* up to 1e15 box diagonals */

@@ -52,12 +52,16 @@ enum hf_joint_kind {
   HF_JOINT_KIND_TWIST = 3   /* it lies along a bone and takes a share of its turn */
 };
 
-/* The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex. */
+/* The skin of a character: its surface, and the joints of each vertex. These are the arrays of a glTF skin as the file
+ * has them: with inverse_binds the library moves the surface from the pose of binding to the pose `rest`. */
 typedef struct hf_skin_desc {
   uint32_t struct_size;
   uint32_t vertex_count;
   uint32_t triangle_count;   /* 0: no triangles */
   uint32_t influence_count;  /* joints of each vertex in the arrays, 1 to 64 */
+  int32_t at_rest;           /* 1: positions are in the pose `rest` and in the space of the joints, also with
+                                inverse_binds. 0: in the pose of inverse_binds if there are any */
+  uint32_t reserved;         /* 0 */
   const float* positions;    /* [vertex_count][3] */
   const uint32_t* triangles; /* [triangle_count][3], or NULL with triangle_count 0 */
   const uint32_t* joints;    /* [vertex_count][influence_count] */

@@ -82,10 +82,10 @@ typedef struct hf_gltf_model_info {
   uint32_t struct_size;
   uint32_t vertex_count, triangle_count; /* of all triangle meshes of the scene together */
   uint32_t clip_count;
-  uint32_t joint_count; /* nodes that are joints of a skin */
-  uint32_t note_count;  /* sentences of hf_gltf_model_get_note */
-  int32_t has_skin;     /* 1 if a mesh has a skin */
-  uint32_t reserved;
+  uint32_t joint_count;     /* nodes of the file: each is a joint of hf_gltf_skeleton */
+  uint32_t note_count;      /* sentences of hf_gltf_model_get_note */
+  int32_t has_skin;         /* 1 if a mesh has a skin */
+  uint32_t name_byte_count; /* of the names of hf_gltf_skeleton, with the zero at the end */
 } hf_gltf_model_info;
 
 /* Writes the counts of a model. Since 0.1. */
@@ -101,13 +101,29 @@ typedef struct hf_gltf_surface {
   uint32_t reserved;
   double* positions;   /* [vertex_count][3]: for positions of hf_surface_desc */
   uint32_t* triangles; /* [triangle_count][3] */
-  uint16_t* joints;    /* [vertex_count][8] and */
-  float* weights;      /* [vertex_count][8], sum 1: for hf_links_desc. All zero where a mesh has no skin */
+  uint16_t* joints;    /* [vertex_count][8] joints of hf_gltf_skeleton, and */
+  float* weights;      /* [vertex_count][8], sum 1: for hf_links_desc and hf_skin_desc. A mesh without a skin has its
+                          node as the one joint */
 } hf_gltf_surface;
 
-/* Writes the surface: the vertices of all meshes, one behind the other, each as often as the file has it. So give hf
- * a weld tolerance. Errors: HF_ERROR_EMPTY (no triangles). Since 0.1. */
+/* Writes the surface: the vertices of all meshes, one behind the other, each as often as the file has it. Copies can
+ * differ by rounding, so give hf a weld tolerance, such as 1e-6 of the box. Errors: HF_ERROR_EMPTY (no
+ * triangles), HF_ERROR_TOO_LARGE (more joints than `joints` can number). Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_get_surface(hf_gltf_model model, const hf_gltf_surface* out_surface);
+
+/* The joints of a model at rest, for hf_skeleton_desc: every node of the file is a joint. Each array can be NULL. Fill
+ * a hf_skin_desc with the arrays of hf_gltf_surface, and set its at_rest to 1. */
+typedef struct hf_gltf_skeleton {
+  uint32_t struct_size;
+  uint32_t name_capacity; /* bytes of names; hf_gltf_model_info.name_byte_count are needed */
+  char* names;            /* one line for each joint in UTF-8, zero-terminated */
+  uint32_t* parents;      /* [joint_count], HF_NO_INDEX for a root */
+  float* rest;          /* [joint_count][10] translation x y z, rotation x y z w, scale x y z, relative to the parent */
+  float* inverse_binds; /* [joint_count][16] columns first; all zero for a joint of no skin */
+} hf_gltf_skeleton;
+
+/* Writes the joints. Errors: HF_ERROR_TOO_SMALL (names). Since 0.1. */
+HF_GLTF_API hf_result hf_gltf_model_get_skeleton(hf_gltf_model model, const hf_gltf_skeleton* out_skeleton);
 
 /* Puts the vertices of the surface at new places at rest. Rig, clips and looks stay; normals follow. positions:
  * [vertex_count][3]. Errors: HF_ERROR_EMPTY, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (for floats; index = vertex).
@@ -139,6 +155,25 @@ HF_GLTF_API hf_result hf_gltf_model_get_clip(hf_gltf_model model, uint32_t clip,
  * after the last key the value is held. positions: [vertex_count][3]. Errors: HF_ERROR_OUT_OF_RANGE,
  * HF_ERROR_NON_FINITE (time), HF_ERROR_EMPTY. Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_pose(hf_gltf_model model, uint32_t clip, double time, double* positions);
+
+/* Writes the transform of every joint in a clip at a time, in seconds: for hf_retarget_solve. Before the first and
+ * after the last key the value is held. joints: [joint_count][10], as in hf_gltf_skeleton. Errors:
+ * HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE (time). Since 0.1. */
+HF_GLTF_API hf_result hf_gltf_model_pose_joints(hf_gltf_model model, uint32_t clip, double time, float* joints);
+
+/* Poses of the joints over time, such as the output of hf_retarget_solve. */
+typedef struct hf_gltf_joints_desc {
+  uint32_t struct_size;
+  uint32_t frame_count;
+  const char* name;    /* of the clip; UTF-8, or NULL */
+  const double* times; /* [frame_count], increasing, from 0 on */
+  const float* joints; /* [frame_count][joint_count][10], as in hf_gltf_skeleton */
+} hf_gltf_joints_desc;
+
+/* Adds a clip, as the first. It has keys for the joints that leave their rest. Errors: HF_ERROR_NON_FINITE (index =
+ * frame), HF_ERROR_INVALID_ARGUMENT (times; a rotation of length 0, index = frame), HF_ERROR_EMPTY (no frame). Thread
+ * safety: changes the model. Since 0.1. */
+HF_GLTF_API hf_result hf_gltf_model_add_joint_clip(hf_gltf_model model, const hf_gltf_joints_desc* desc);
 
 /* Posed copies of a surface over time, such as the output of hf_transfer_apply. */
 typedef struct hf_gltf_frames_desc {

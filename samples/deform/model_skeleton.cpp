@@ -40,6 +40,7 @@ ModelSkeleton::ModelSkeleton(const Model& model, const FlatMesh& mesh) {
   surface.vertex_count = mesh.vertex_count();
   surface.triangle_count = mesh.triangle_count();
   surface.influence_count = skin.desc.influence_count;
+  surface.at_rest = 1;
   surface.positions = positions.data();
   surface.triangles = mesh.triangles.data();
   surface.joints = joints.data();

@@ -287,10 +287,12 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
     const auto depth = [&](const std::vector<uint8_t>& source_part, const std::vector<uint8_t>& target_part) {
       return ground ? depth_of(source, target, scale, source_part, target_part, played[c].source_frames,
                                played[c].target_frames)
-                    : 0;
+                    : Depths();
     };
-    report.depths.push_back(depth(source_out, target_out));
-    const double flesh = depth(source_flesh, target_flesh);
+    const Depths deepest = depth(source_out, target_out);
+    report.depths.push_back(deepest.beyond);
+    report.source_depths.push_back(deepest.source);
+    const double flesh = depth(source_flesh, target_flesh).beyond;
     if (report.depths.back() > flesh) faults.held = report.depths.back();
     faults.confidence = confidence_of(faults, played[c].target_frames.size());
     if ((!known || fit.compared == 0 || !has_source) && faults.confidence > unseen_confidence) {
@@ -346,6 +348,7 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
   report.scale_from = last.scale_from;
   report.joints = last.joints;
   report.unmatched = last.unmatched;
+  report.staying = last.staying;
   report.drop = last.drop / box;
   report.source = body_of(models.source_known, given(command.source_axes), models.source_stance);
   report.target = body_of(models.target_known, given(command.target_axes), models.target_stance);
@@ -368,7 +371,8 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
     measure_left_behind(models, left_behind, played[c], report);
     if (has_ground(models))
       played[c].feet.surface_sunk = depth_of(source, target, report.scale, source_out, target_out,
-                                             played[c].source_frames, played[c].target_frames);
+                                             played[c].source_frames, played[c].target_frames)
+                                        .beyond;
     report.clip_names.push_back(clips[c]->name);
     report.frames.push_back(played[c].clip.times.size());
     report.frame_ms.push_back(played[c].frame_ms);

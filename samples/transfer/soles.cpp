@@ -352,7 +352,7 @@ double acceleration_of(const StandingBody& source, const StandingBody& target, d
   return a > still ? std::sqrt(b / a) : 0;
 }
 
-double depth_of(const StandingBody& source, const StandingBody& target, double scale,
+Depths depth_of(const StandingBody& source, const StandingBody& target, double scale,
                 const std::vector<uint8_t>& source_out, const std::vector<uint8_t>& target_out,
                 const std::vector<std::vector<double>>& source_frames,
                 const std::vector<std::vector<double>>& target_frames) {
@@ -361,13 +361,15 @@ double depth_of(const StandingBody& source, const StandingBody& target, double s
   const double ground = lowest_of(double_positions(target.mesh.positions), up, target_out),
                source_ground =
                    has_source ? lowest_of(double_positions(source.mesh.positions), source_up, source_out) : 0;
-  double out = 0;
+  const double box = SurfaceBox(target.mesh).diagonal();
+  Depths out;
   for (size_t f = 0; f < target_frames.size(); ++f) {
     const double sinks =
         has_source ? std::min(0.0, lowest_of(source_frames[f], source_up, source_out) - source_ground) : 0;
-    out = std::max(out, ground + scale * sinks - lowest_of(target_frames[f], up, target_out));
+    out.source = std::max(out.source, -scale * sinks / box);
+    out.beyond = std::max(out.beyond, (ground + scale * sinks - lowest_of(target_frames[f], up, target_out)) / box);
   }
-  return out / SurfaceBox(target.mesh).diagonal();
+  return out;
 }
 
 }  // namespace samples

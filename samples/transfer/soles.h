@@ -57,8 +57,12 @@ double acceleration_of(const StandingBody& source, const StandingBody& target, d
                        const std::vector<std::vector<double>>& source_frames,
                        const std::vector<std::vector<double>>& target_frames);
 
-// How deep the deepest vertex goes, deeper than the source's scaled, in boxes of the target.
-double depth_of(const StandingBody& source, const StandingBody& target, double scale,
+// In boxes of the target: how deep the source's deepest vertex goes under its ground, scaled, and how much deeper the
+// target's goes.
+struct Depths {
+  double source = 0, beyond = 0;
+};
+Depths depth_of(const StandingBody& source, const StandingBody& target, double scale,
                 const std::vector<uint8_t>& source_out, const std::vector<uint8_t>& target_out,
                 const std::vector<std::vector<double>>& source_frames,
                 const std::vector<std::vector<double>>& target_frames);

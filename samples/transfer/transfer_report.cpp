@@ -14,6 +14,9 @@ namespace samples {
 using namespace hf_gltf;
 namespace {
 
+// Less is not seen. Half is the rounding of soles on the ground.
+constexpr double told_depth = 0.005;
+
 #if defined(__MINGW32__) && !defined(__clang__)  // its C++ library has the printf of GNU
 void print(std::string& out, const char* format, ...) __attribute__((format(gnu_printf, 2, 3)));
 #elif defined(__GNUC__)
@@ -145,14 +148,19 @@ void add_pairs(const RunReport& report, std::string& out) {
   }
 }
 
+// "; 2 of the source have no partner: tail_1 tail_2"; at most 12 names.
+void add_names(const std::vector<std::string>& names, const char* what, std::string& out) {
+  if (names.empty()) return;
+  print(out, "; %zu %s:", names.size(), what);
+  for (size_t k = 0; k < std::min<size_t>(names.size(), 12); ++k) out += " " + names[k];
+  if (names.size() > 12) out += " ...";
+}
+
 void add_joints(const RunReport& report, std::string& out) {
   if (report.same_skeleton) out += "  same skeleton, its keys are copied\n";
   print(out, "  joints        %zu of the target follow", report.joints);
-  if (!report.unmatched.empty()) {
-    print(out, "; %zu of the source have no partner:", report.unmatched.size());
-    for (size_t k = 0; k < std::min<size_t>(report.unmatched.size(), 12); ++k) out += " " + report.unmatched[k];
-    if (report.unmatched.size() > 12) out += " ...";
-  }
+  add_names(report.unmatched, "of the source have no partner", out);
+  add_names(report.staying, "of the target stay as they rest", out);
   out += "\n";
   for (size_t c = 0; c < report.clip_names.size(); ++c)
     print(out, "  clip \"%s\": %zu frames, %.3f ms each\n", report.clip_names[c].c_str(), report.frames[c],
@@ -175,6 +183,8 @@ void add_quality(const RunReport& report, std::string& out) {
   }
   for (size_t c = 0; c < report.depths.size(); ++c) {
     print(out, "  ground        deepest vertex %.2f %% of the box under it", 100 * report.depths[c]);
+    if (c < report.source_depths.size() && report.source_depths[c] > told_depth)
+      print(out, ", beyond the source, whose motion goes %.1f %% under its own ground", 100 * report.source_depths[c]);
     if (report.faults[c].sunk < 0.9 * report.depths[c])
       print(out, " (%.2f %% without things in hands and parts that may sink)", 100 * report.faults[c].sunk);
     if (report.faults[c].slide >= 0) print(out, ", standing soles slide %.3f boxes a second", report.faults[c].slide);
@@ -254,6 +264,7 @@ nlohmann::json to_json(const RunReport& report) {
                            {"surface_sunk", feet.surface_sunk}});
     }
     if (c < report.depths.size()) clips.back()["depth"] = report.depths[c];
+    if (c < report.source_depths.size()) clips.back()["source_depth"] = report.source_depths[c];
     if (c < report.fits.size() && report.fits[c].compared > 0) {
       const PoseFit& fit = report.fits[c];
       nlohmann::json limbs;
@@ -292,6 +303,7 @@ nlohmann::json to_json(const RunReport& report) {
           {"same_skeleton", report.same_skeleton},
           {"joints", report.joints},
           {"unmatched", report.unmatched},
+          {"staying", report.staying},
           {"clusters", report.clusters},
           {"scale", report.scale},
           {"scale_from", report.scale_from},

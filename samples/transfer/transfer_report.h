@@ -35,11 +35,13 @@ struct RunReport {
   bool same_skeleton = false;
   size_t joints = 0;                   // of the target that follow
   std::vector<std::string> unmatched;  // joints of the source without a partner
+  std::vector<std::string> staying;    // joints of the target without one
   double drop = 0;                     // how far the hips sank so that feet reach, in boxes
   std::vector<uint8_t> foot_paths;     // of each clip, see JointClip
   // Of each written clip, where both skeletons are known.
   std::vector<PoseFit> fits;
-  std::vector<double> depths;  // of the deepest vertex, deeper than the source's, in boxes
+  std::vector<double> depths;         // of the deepest vertex, deeper than the source's, in boxes
+  std::vector<double> source_depths;  // of the source's deepest vertex under its own ground, scaled, in boxes
   std::vector<PairReport> pairs;
   std::vector<std::string> warnings;
   std::vector<std::string> clip_names;

@@ -65,7 +65,12 @@ static Body body_of(const char* file) {
   for (int c = 0; c < 3; ++c) sum += (high[c] - low[c]) * (high[c] - low[c]);
   body.diagonal = sqrt(sum);
   hf_links_desc links = HF_INIT(hf_links_desc);
+  hf_gltf_skeleton skeleton = HF_INIT(hf_gltf_skeleton);
+  skeleton.parents = space(sizeof(uint32_t) * body.info.joint_count);
   if (body.info.has_skin) {
+    good(hf_gltf_model_get_skeleton(body.model, &skeleton));
+    links.joint_count = body.info.joint_count;
+    links.joint_parents = skeleton.parents;
     links.influence_count = 8;
     links.joints = shape.joints;
     links.weights = shape.weights;
@@ -83,6 +88,7 @@ static Body body_of(const char* file) {
   far.kind = HF_EXTREMITIES_GEODESIC;
   ok(hf_surface_find_extremities(body.surface, &far, TIPS, found, &body.tip_count));
   for (uint32_t i = 0; i < body.tip_count; ++i) body.tips[i] = found[i].vertex;
+  free(skeleton.parents);
   free(shape.triangles);
   free(shape.joints);
   free(shape.weights);

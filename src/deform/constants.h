@@ -62,8 +62,8 @@ constexpr std::uint32_t default_pose_iterations = 10;
 // elastic energy of a bent cylinder and a twisted bar by 0.3 %. The full-mesh step (refine.h) lowers these two energies
 // by 3 and 5 %.
 constexpr std::uint32_t default_groups = 250;
-// The elastic energy counts a stiffness of at most this and at least 1 over it; the fields count all of it. A stiff
-// region keeps its lengths to 0.1 %. With 25 to 0.4 %. With 1e4 to 1e-5, but its rotation then hardly changes in an
+// The elastic energy counts a stiffness of at most this and at least 1 over it; the fields count all of it. With 25 a
+// stiff region changes its lengths four times as much. With 1e4 its rotation hardly changes in an
 // iteration: a tube with a rigid belt stops 0.04 of its box short of its place with 25 to 256.
 constexpr double largest_energy_stiffness = 100;
 // A pose counts as converged when no group's rotation changes by more in an iteration (Frobenius norm). Solving it

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "gltf/animate.h"
+#include "gltf/api_arguments.h"
 #include "gltf/api_objects.h"
 #include "gltf/clip_binding.h"
 #include "gltf/file_name.h"
@@ -37,37 +38,6 @@ void need_surface(const ModelObject& object) {
   if (object.mesh.positions.empty()) throw Failure(HF_ERROR_EMPTY, "the model has no triangles");
 }
 
-size_t numbered(uint32_t index, size_t count, const char* what) {
-  if (index >= count)
-    throw Failure(HF_ERROR_OUT_OF_RANGE,
-                  std::string(what) + " " + std::to_string(index) + " of " + std::to_string(count), index);
-  return index;
-}
-
-// Finite, and no larger than the floats of a file.
-void need_finite(const double* values, size_t count, size_t row, const char* what) {
-  constexpr double most = std::numeric_limits<float>::max();
-  for (size_t i = 0; i < count; ++i) {
-    if (std::fabs(values[i]) <= most) continue;
-    const bool finite = std::isfinite(values[i]);
-    throw Failure(finite ? HF_ERROR_TOO_LARGE : HF_ERROR_NON_FINITE,
-                  std::string(what) + " " + std::to_string(i / row) +
-                      (finite ? " holds a number that is no float, as files have it; scale it down" : " is not finite"),
-                  static_cast<uint32_t>(i / row));
-  }
-}
-
-// The times of a clip: finite, increasing, from 0 on.
-std::vector<double> times_of(const double* times, uint32_t count) {
-  need(times, "times");
-  if (count == 0) throw Failure(HF_ERROR_EMPTY, "frame_count is 0");
-  need_finite(times, count, 1, "time");
-  for (uint32_t f = 0; f < count; ++f)
-    if (times[f] < 0 || (f > 0 && !(times[f] > times[f - 1])))
-      throw Failure(HF_ERROR_INVALID_ARGUMENT, "times must increase, from 0 on: look at frame " + std::to_string(f), f);
-  return {times, times + count};
-}
-
 // Positions of one frame as the C++ side takes them.
 std::vector<double> frame_of(const double* positions, size_t vertices, size_t frame) {
   return {positions + 3 * vertices * frame, positions + 3 * vertices * (frame + 1)};
@@ -78,14 +48,9 @@ void write_positions(const std::vector<glm::dvec3>& from, double* to) {
     for (int c = 0; c < 3; ++c) to[3 * v + static_cast<size_t>(c)] = from[v][c];
 }
 
-// 8 joints and weights of a vertex of the surface; joints are numbered over all skins.
+// 8 joints and weights of a vertex of the surface. A joint is a node. A mesh without a skin hangs on its node.
 void write_influences(const ModelObject& object, uint16_t* joints, float* weights) {
-  std::vector<size_t> first;
-  size_t count = 0;
-  for (const Skin& skin : object.model.skins) {
-    first.push_back(count);
-    count += skin.joints.size();
-  }
+  const size_t count = object.model.nodes.size();
   if (joints && count > 65536)
     throw Failure(HF_ERROR_TOO_LARGE, std::to_string(count) + " joints; joints holds numbers below 65536");
   const size_t total = size_t{8} * object.mesh.positions.size();
@@ -95,15 +60,21 @@ void write_influences(const ModelObject& object, uint16_t* joints, float* weight
     const int skin = object.model.nodes[static_cast<size_t>(part.node)].skin;
     const Primitive& primitive =
         object.model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
-    if (skin < 0 || primitive.influences.empty()) continue;
-    for (size_t v = 0; v < part.vertex_count; ++v)
-      for (size_t i = 0; i < 8; ++i) {
-        const size_t at = 8 * (part.first_vertex + v) + i;
-        const Influences& from = primitive.influences[v];
-        if (joints && from.weights[i] > 0)
-          joints[at] = static_cast<uint16_t>(first[static_cast<size_t>(skin)] + from.joints[i]);
-        if (weights) weights[at] = from.weights[i];
+    const bool skinned = skin >= 0 && !primitive.influences.empty();
+    for (size_t v = 0; v < part.vertex_count; ++v) {
+      const size_t at = 8 * (part.first_vertex + v);
+      if (!skinned) {
+        if (joints) joints[at] = static_cast<uint16_t>(part.node);
+        if (weights) weights[at] = 1;
+        continue;
       }
+      const std::vector<int>& nodes = object.model.skins[static_cast<size_t>(skin)].joints;
+      const Influences& from = primitive.influences[v];
+      for (size_t i = 0; i < 8; ++i) {
+        if (joints && from.weights[i] > 0) joints[at + i] = static_cast<uint16_t>(nodes[from.joints[i]]);
+        if (weights) weights[at + i] = from.weights[i];
+      }
+    }
   }
 }
 
@@ -177,11 +148,10 @@ hf_result hf_gltf_model_get_info(hf_gltf_model model, hf_gltf_model_info* out_in
     info.vertex_count = object->mesh.vertex_count();
     info.triangle_count = object->mesh.triangle_count();
     info.clip_count = static_cast<uint32_t>(of.animations.size());
-    info.joint_count = 0;
-    for (const Skin& skin : of.skins) info.joint_count += static_cast<uint32_t>(skin.joints.size());
+    info.joint_count = static_cast<uint32_t>(of.nodes.size());
     info.note_count = static_cast<uint32_t>(of.notes.size() + of.warnings.size());
     info.has_skin = has_skin(of);
-    info.reserved = 0;
+    info.name_byte_count = static_cast<uint32_t>(joint_names(of).size() + 1);
   });
 }
 

@@ -280,6 +280,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
   out.scale_from = report.same_skeleton ? "the same skeleton" : scale_source_name(report.scale_source);
   out.joints = report.matched_joints;
   for (const std::uint32_t j : report.unmatched_source) out.unmatched.push_back(source.side.model.nodes[j].name);
+  for (const std::uint32_t j : report.unmatched_target) out.staying.push_back(target.side.model.nodes[j].name);
   out.drop = report.deepest_drop;
   out.hover = report.hover;
   out.frame_ms = ms / static_cast<double>(std::max<size_t>(times.size(), 1));

@@ -40,6 +40,7 @@ struct JointClip {
   std::string scale_from;
   size_t joints = 0;                   // of the target that follow
   std::vector<std::string> unmatched;  // joints of the source's body without a partner
+  std::vector<std::string> staying;    // joints of the target's body without one
   double drop = 0;                     // how far the hips sank so that feet reach, in units of the target
   double hover = 0;                    // see RetargetReport
   bool foot_path = false;              // as asked

@@ -81,18 +81,14 @@ SurfacePlace read_place(const Mesh& mesh, const hf_place& given, std::size_t pos
   return snapped(place);
 }
 
-PlaceReader::PlaceReader(const Mesh& mesh, const Places& given, Memory& memory) : mesh_(mesh), given_(given) {
-  if (given.points && !mesh.is_graph()) surface_.emplace(mesh.positions, mesh.corners, memory);
-}
-
 SurfacePlace PlaceReader::read(std::uint32_t i) const {
   if (given_.vertices) return SurfacePlace::at_vertex(usable_vertex(mesh_, given_.vertices[i], i, "vertices"));
   if (given_.places) return read_place(mesh_, given_.places[i], i, "places");
   require_triangles(mesh_, "a point in space", i);
   const Vec3 p = read_point_near(mesh_, given_.points + std::size_t{3} * i, "point", i);
-  const Index t = surface_->find(p).triangle;
+  const Index t = nearest_->find(p).triangle;
   double weight[3];
-  surface_->weights(p, t, weight);
+  nearest_->weights(p, t, weight);
   SurfacePlace place;
   for (int k = 0; k < 3; ++k) {
     if (weight[k] > 0) add_corner(place, mesh_.triangle(t)[k], weight[k]);

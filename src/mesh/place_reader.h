@@ -1,8 +1,6 @@
 // Reads the places that a caller names: vertices, places between corners, or points in space. Sites, pins, curves,
 // handles and paths read theirs here, so each refuses the same places in the same words.
 #pragma once
-#include <optional>
-
 #include "mesh/nearest_triangle.h"
 #include "mesh/places.h"
 
@@ -26,8 +24,10 @@ SurfacePlace read_place(const Mesh& mesh, const hf_place& given, std::size_t pos
 
 class PlaceReader {
  public:
-  // Both arguments must outlive this object. Cost: O(n log n) for points, else none.
-  PlaceReader(const Mesh& mesh, const Places& given, Memory& memory);
+  // nearest: of the triangles of the mesh, for points in space; null for other places, and on a graph. All arguments
+  // must outlive this object.
+  PlaceReader(const Mesh& mesh, const Places& given, const NearestTriangle* nearest)
+      : mesh_(mesh), given_(given), nearest_(nearest) {}
   // Reads place i. A point in space becomes the nearest point of the surface. Throws as usable_vertex, read_place and
   // read_point_near do, index = i.
   SurfacePlace read(std::uint32_t i) const;
@@ -35,7 +35,7 @@ class PlaceReader {
  private:
   const Mesh& mesh_;
   const Places& given_;
-  std::optional<NearestTriangle> surface_;  // for points
+  const NearestTriangle* nearest_;
 };
 
 }  // namespace hf_inner::mesh

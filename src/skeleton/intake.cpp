@@ -6,6 +6,7 @@
 
 #include "base/arguments.h"
 #include "skeleton/body.h"
+#include "skeleton/rest_transforms.h"
 
 namespace hf_inner::skeleton {
 
@@ -93,34 +94,6 @@ Vec3 Body::mean_below(Index joint) const noexcept {
 }
 
 namespace {
-
-struct Transform {
-  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin;
-  Vec3 turned(Vec3 v) const noexcept { return v.x * x + v.y * y + v.z * z; }
-  Transform operator*(const Transform& other) const noexcept {
-    return {turned(other.x), turned(other.y), turned(other.z), turned(other.origin) + origin};
-  }
-};
-
-Transform local_transform(const CharacterInput& in, std::size_t joint) {
-  const std::size_t size = in.matrices ? 16 : 10;
-  const double* m = (in.matrices ? in.matrices : in.trs) + size * joint;
-  for (std::size_t k = 0; k < size; ++k) {
-    if (!std::isfinite(m[k]))
-      fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(joint),
-           "the rest transform of joint %zu has a number that is not finite", joint);
-  }
-  if (in.matrices) return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-  const double length = std::sqrt(m[3] * m[3] + m[4] * m[4] + m[5] * m[5] + m[6] * m[6]);
-  if (!(length > 0))
-    fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(joint),
-         "the rotation of joint %zu is 0; give a quaternion x y z w of length 1", joint);
-  const double x = m[3] / length, y = m[4] / length, z = m[5] / length, w = m[6] / length;
-  return {m[7] * Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-          m[8] * Vec3{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-          m[9] * Vec3{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)},
-          {m[0], m[1], m[2]}};
-}
 
 // The rotation of a transform: its columns made perpendicular. A flipped one keeps x and y and turns z round.
 RestFrame frame_of(const Transform& t) noexcept {

@@ -7,6 +7,7 @@
 
 #include "base/arguments.h"
 #include "skeleton/constants.h"
+#include "skeleton/rest_transforms.h"
 
 namespace hf_inner::skeleton {
 namespace {
@@ -55,6 +56,8 @@ const std::uint8_t* read_bound(const Vector<double>& inverse_binds, Vector<std::
 
 void read_skin(const hf_skin_desc& skin, std::uint32_t joint_count, KnownSkeleton& out) {
   require_list(skin.vertex_count, skin.positions, "vertex_count", "positions");
+  check_flag(skin.at_rest, "at_rest");
+  require_zero(skin.reserved);
   if (skin.influence_count < 1 || skin.influence_count > most_influences)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "influence_count is %u; it must be 1 to %u", skin.influence_count,
          most_influences);
@@ -150,7 +153,10 @@ KnownSkeleton::KnownSkeleton(const hf_skeleton_desc& desc, const hf_skin_desc* s
   }
   input.up = read_axis(desc.up, up);
   input.forward = read_axis(desc.forward, forward);
-  if (skin) read_skin(*skin, count, *this);
+  if (skin) {
+    read_skin(*skin, count, *this);
+    if (input.bound && !skin->at_rest) pose_skin_at_rest(input, positions, *memory);
+  }
   character = know_character(input, *memory);
 }
 

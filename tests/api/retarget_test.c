@@ -112,6 +112,42 @@ static void a_man_is_known(void** state) {
   teardown();
 }
 
+/* A skin bound in an armature of its own: centimetres, z up. */
+static void a_skin_in_the_space_of_its_binding_stands_at_rest(void** state) {
+  (void)state;
+  const StickMan at_rest = stick_man(1, 0);
+  StickMan bound = at_rest;
+  float binds[MAN_JOINTS][16] = {{0}};
+  for (int v = 0; v < MAN_VERTICES; ++v) {
+    const float* const p = at_rest.positions[v];
+    const float moved[3] = {100 * p[0], -100 * p[2], 100 * p[1]};
+    memcpy(bound.positions[v], moved, sizeof moved);
+  }
+  for (int j = 0; j < MAN_JOINTS; ++j) {
+    binds[j][0] = binds[j][9] = 0.01f;
+    binds[j][6] = -0.01f;
+    for (int c = 0; c < 3; ++c) binds[j][12 + c] = -at_rest.positions[3 * j][c]; /* its first vertex is its place */
+    binds[j][15] = 1;
+  }
+  hf_skeleton_info info[3];
+  for (int k = 0; k < 3; ++k) { /* at rest, bound, and bound vertices given as if they were at rest */
+    const hf_skin_desc plain = man_skin(&at_rest);
+    hf_skin_desc other_space = man_skin(&bound);
+    other_space.at_rest = k == 2;
+    hf_skeleton_desc d = man_desc(&at_rest, k == 0 ? &plain : &other_space);
+    if (k > 0) d.inverse_binds = binds[0];
+    hf_skeleton known = NULL;
+    assert_ok(hf_skeleton_create(&d, &known));
+    info[k] = HF_INIT(hf_skeleton_info);
+    assert_ok(hf_skeleton_get_info(known, &info[k]));
+    hf_skeleton_destroy(known);
+  }
+  for (int c = 0; c < 3; ++c) assert_true(fabs(info[0].up[c] - info[1].up[c]) < 1e-6);
+  assert_true(fabs(info[0].height - info[1].height) < 1e-6);
+  assert_true(fabs(info[0].hip_height - info[1].hip_height) < 1e-6);
+  assert_true(fabs(info[0].height - info[2].height) > 1);
+}
+
 static void equal_skeletons_copy_keys(void** state) {
   (void)state;
   setup(1, 0);
@@ -351,6 +387,9 @@ static void bad_skeletons_are_named(void** state) {
   ROW("no size", HF_ERROR_INVALID_DESC, NO_INDEX, desc.struct_size = 0, hf_skeleton_create(&desc, &made_skeleton));
   ROW("no size of the skin", HF_ERROR_INVALID_DESC, NO_INDEX, skin.struct_size = 0,
       hf_skeleton_create(&desc, &made_skeleton));
+  ROW("at_rest 2", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, skin.at_rest = 2, hf_skeleton_create(&desc, &made_skeleton));
+  ROW("reserved of the skin", HF_ERROR_INVALID_DESC, NO_INDEX, skin.reserved = 1,
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("reserved", HF_ERROR_INVALID_DESC, NO_INDEX, desc.reserved = 1, hf_skeleton_create(&desc, &made_skeleton));
   ROW("no joint", HF_ERROR_EMPTY, NO_INDEX, desc.joint_count = 0, hf_skeleton_create(&desc, &made_skeleton));
   ROW("too many joints", HF_ERROR_TOO_LARGE, NO_INDEX, desc.joint_count = UINT32_MAX,
@@ -524,6 +563,7 @@ static void bad_retargets_are_named(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_man_is_known),
+      cmocka_unit_test(a_skin_in_the_space_of_its_binding_stands_at_rest),
       cmocka_unit_test(equal_skeletons_copy_keys),
       cmocka_unit_test(limbs_point_as_the_source_points_though_rests_and_sizes_differ),
       cmocka_unit_test(a_clone_goes_on_as_its_original_goes_on),

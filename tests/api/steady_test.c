@@ -68,6 +68,15 @@ static void an_edited_field_at_some_vertices(uint32_t frame) {
   const uint32_t vertices[3] = {7000 + frame, 3050, 8000 - frame};
   assert_ok(hf_solver_solve_at(w.edited, 3, vertices, w.field));
 }
+static void a_site_moved_to_a_point(uint32_t frame) {
+  const float* const near = w.tube.positions + 3 * (3000 + 7 * frame);
+  const double point[3] = {near[0] + 0.01, near[1] + 0.01, near[2]};
+  hf_sites_desc to = HF_INIT(hf_sites_desc);
+  to.site_count = 1;
+  to.points = point;
+  assert_ok(hf_solver_move_sites(w.solver, 1, &w.site, &to));
+  assert_ok(hf_solve(w.solver, w.values, 0, NULL));
+}
 static void deform(hf_pose pose, uint32_t handle, uint32_t frame, int refine) {
   const hf_transform moved = {{0, 0, 0, 0}, {0.05 * frame, 0.02 * frame, 0}};
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
@@ -229,6 +238,7 @@ static const struct Row {
     {"a site moved on an edited surface, and the field", a_site_on_an_edited_surface, 1},
     {"the field at some vertices of an edited surface", an_edited_field_at_some_vertices, 1},
     {"a pose of an edited surface, with a full-mesh step", a_pose_of_an_edited_surface, 1},
+    {"a site moved to a point in space, and the field", a_site_moved_to_a_point, 1},
 };
 
 static void a_steady_state_asks_the_host_for_no_memory(void** state) {

@@ -2270,7 +2270,9 @@ namespace Hf
         }
     }
 
-    /// <summary>The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.</summary>
+    /// <summary>The skin of a character: its surface, and the joints of each vertex. These are the arrays of a glTF skin as
+    /// the file has them: with inverse_binds the library moves the surface from the pose of binding to the pose
+    /// `rest`.</summary>
     public sealed unsafe class SkinDesc
     {
         /// <summary>[vertexCount x 3]</summary>
@@ -2281,6 +2283,9 @@ namespace Hf
         public uint[] Joints;
         /// <summary>[vertexCount x influenceCount] &gt;= 0; a vertex whose weights are all 0 has no joint</summary>
         public float[] Weights;
+        /// <summary>1: positions are in the pose `rest` and in the space of the joints, also with inverse_binds. 0: in the
+        ///     pose of inverse_binds if there are any</summary>
+        public bool AtRest;
 
         public static implicit operator SkinDesc(float[] positions)
         {
@@ -2291,6 +2296,7 @@ namespace Hf
         {
             var desc = (hf_skin_desc*)c.New(sizeof(hf_skin_desc));
             desc->struct_size = (uint)sizeof(hf_skin_desc);
+            desc->at_rest = AtRest ? 1 : 0;
             desc->positions = (IntPtr)c.Array(Positions, "positions", prefix + "vertex_count", "3");
             desc->triangles = (IntPtr)c.Array(Triangles, "triangles", prefix + "triangle_count", "3");
             desc->joints = (IntPtr)c.Array(Joints, "joints", prefix + "vertex_count", prefix + "influence_count");

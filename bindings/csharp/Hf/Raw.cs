@@ -1169,6 +1169,8 @@ namespace Hf.Native
         public uint vertex_count;
         public uint triangle_count;
         public uint influence_count;
+        public int at_rest;
+        public uint reserved;
         public IntPtr positions;
         public IntPtr triangles;
         public IntPtr joints;

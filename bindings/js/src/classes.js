@@ -343,9 +343,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const skinDesc = (c, prefix, options) => {
-    const { positions = null, triangles = null, joints = null, weights = null, ...more } = options;
+    const { positions = null, triangles = null, joints = null, weights = null, atRest = false, ...more } = options;
     none(more);
-    const desc = c.struct('hf_skin_desc', {});
+    const desc = c.struct('hf_skin_desc', { at_rest: atRest });
     desc.set('positions', c.array('positions', positions, 'f4', [prefix + 'vertex_count', 3]));
     desc.set('triangles', c.array('triangles', triangles, 'u4', [prefix + 'triangle_count', 3]));
     desc.set('joints', c.array('joints', joints, 'u4', [prefix + 'vertex_count', prefix + 'influence_count']));

@@ -1257,7 +1257,10 @@ export interface SitesDescGiven {
   radii?: Rows | null;
 }
 
-/** The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex. */
+/**
+ * The skin of a character: its surface, and the joints of each vertex. These are the arrays of a glTF skin as the
+ * file has them: with inverse_binds the library moves the surface from the pose of binding to the pose `rest`.
+ */
 export interface SkinDescGiven {
   /** [vertexCount x 3] */
   positions?: Rows | null;
@@ -1267,6 +1270,11 @@ export interface SkinDescGiven {
   joints?: Rows | null;
   /** [vertexCount x influenceCount] >= 0; a vertex whose weights are all 0 has no joint */
   weights?: Rows | null;
+  /**
+   * 1: positions are in the pose `rest` and in the space of the joints, also with inverse_binds. 0: in the pose of
+   *     inverse_binds if there are any
+   */
+  atRest?: boolean | number;
 }
 
 /**

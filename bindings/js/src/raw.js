@@ -944,15 +944,17 @@ export const layouts = {
     mean_angle: ['f64', [16, 16], 0],
     worst_angle: ['f64', [24, 24], 0],
   } },
-  hf_skin_desc: { size: [32, 48], fields: {
+  hf_skin_desc: { size: [40, 56], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     triangle_count: ['u32', [8, 8], 0],
     influence_count: ['u32', [12, 12], 0],
-    positions: ['ptr', [16, 16], 0],
-    triangles: ['ptr', [20, 24], 0],
-    joints: ['ptr', [24, 32], 0],
-    weights: ['ptr', [28, 40], 0],
+    at_rest: ['i32', [16, 16], 0],
+    reserved: ['u32', [20, 20], 0],
+    positions: ['ptr', [24, 24], 0],
+    triangles: ['ptr', [28, 32], 0],
+    joints: ['ptr', [32, 40], 0],
+    weights: ['ptr', [36, 48], 0],
   } },
   hf_skeleton_desc: { size: [72, 128], fields: {
     struct_size: ['u32', [0, 0], 0],

@@ -1013,9 +1013,9 @@ def _retarget_desc(c: Call, prefix: str = '', *, source_rest: Optional[ArrayLike
 
 
 def _skin_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None,
-        triangles: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
-        weights: Optional[ArrayLike] = None) -> Any:
-    desc = c.struct(_raw.hf_skin_desc, {})
+        triangles: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
+        at_rest: bool = False) -> Any:
+    desc = c.struct(_raw.hf_skin_desc, {'at_rest': at_rest})
     desc.positions = c.array('positions', positions, 'f4', (prefix + 'vertex_count', 3))
     desc.triangles = c.array('triangles', triangles, 'u4', (prefix + 'triangle_count', 3))
     desc.joints = c.array('joints', joints, 'u4', (prefix + 'vertex_count', prefix + 'influence_count'))

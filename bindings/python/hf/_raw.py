@@ -1332,13 +1332,15 @@ class hf_skin_desc(Struct):
     vertex_count: int
     triangle_count: int
     influence_count: int
+    at_rest: int
+    reserved: int
     positions: int
     triangles: int
     joints: int
     weights: int
     _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("triangle_count", c_uint32),
-                ("influence_count", c_uint32), ("positions", c_void_p), ("triangles", c_void_p), ("joints", c_void_p),
-                ("weights", c_void_p)]
+                ("influence_count", c_uint32), ("at_rest", c_int32), ("reserved", c_uint32), ("positions", c_void_p),
+                ("triangles", c_void_p), ("joints", c_void_p), ("weights", c_void_p)]
 
 
 class hf_skeleton_desc(Struct):

@@ -1042,7 +1042,8 @@ impl<'a> RetargetOptions<'a> {
     }
 }
 
-/// The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.
+/// The skin of a character: its surface, and the joints of each vertex. These are the arrays of a glTF skin as the file
+/// has them: with inverse_binds the library moves the surface from the pose of binding to the pose `rest`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Skin<'a> {
     /// `[vertex_count x 3]`
@@ -1053,10 +1054,22 @@ pub struct Skin<'a> {
     pub joints: Option<&'a [u32]>,
     /// `[vertex_count x influence_count]` >= 0; a vertex whose weights are all 0 has no joint
     pub weights: Option<&'a [f32]>,
+    /// 1: positions are in the pose `rest` and in the space of the joints, also with inverse_binds. 0: in the pose of
+    /// inverse_binds if there are any
+    pub at_rest: bool,
 }
 impl<'a> Skin<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "at_rest" => self.at_rest = whole::<u8>(name, value, 1.0)? == 1,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
+        }
+        Ok(())
+    }
+
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_skin_desc> {
-        let mut desc = raw::hf_skin_desc { ..Default::default() };
+        let mut desc = raw::hf_skin_desc { at_rest: i32::from(self.at_rest), ..Default::default() };
         desc.positions = c.array(self.positions, "positions", &[&format!("{prefix}vertex_count"), "3"])?;
         desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}triangle_count"), "3"])?;
         desc.joints = c.array(self.joints, "joints", &[&format!("{prefix}vertex_count"),

@@ -1297,6 +1297,8 @@ pub struct hf_skin_desc {
     pub vertex_count: u32,
     pub triangle_count: u32,
     pub influence_count: u32,
+    pub at_rest: i32,
+    pub reserved: u32,
     pub positions: *const f32,
     pub triangles: *const u32,
     pub joints: *const u32,

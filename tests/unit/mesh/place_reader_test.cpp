@@ -29,7 +29,7 @@ TEST(PlaceReader, no_triangle_is_nearer_than_the_place_of_a_point) {
       points.insert(points.end(), {p.x, p.y, p.z});
     }
     const Places given(200, nullptr, nullptr, points.data());
-    const PlaceReader reader(mesh, given, *core->memory);
+    const PlaceReader reader(mesh, given, core->geometry->nearest_for(given.points));
     for (std::uint32_t i = 0; i < 200; ++i) {
       const Vec3 p = mesh.to_inner({points[3 * i], points[3 * i + 1], points[3 * i + 2]});
       double least = 1e9;
@@ -56,7 +56,7 @@ TEST(PlaceReader, the_position_of_a_vertex_is_the_vertex) {
     points.insert(points.end(), {p.x, p.y, p.z});
   }
   const Places given(static_cast<std::uint32_t>(mesh.vertex_count()), nullptr, nullptr, points.data());
-  const PlaceReader reader(mesh, given, *core->memory);
+  const PlaceReader reader(mesh, given, core->geometry->nearest_for(given.points));
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
     const SurfacePlace place = reader.read(static_cast<std::uint32_t>(v));
     EXPECT_TRUE(place.is_vertex());
