@@ -196,10 +196,10 @@ std::vector<Program> programs_that_read(const std::string& folder) {
 void measure_files(const std::string& programs, const std::string& folder, bool full, const std::string& only) {
   const std::vector<Program> list = programs_that_read(folder);
   const double bar = full ? most_seconds : most_quick_seconds;
-  // the quick form gives a kind to every third program, and another third of them to the next kind
-  std::size_t third = 0;
+  // the quick form gives a kind to every sixth program, and other ones to the next kind
+  std::size_t turn = 0;
   for (const std::string& kind : file_kinds()) {
-    ++third;
+    ++turn;
     if (kind.find(only) == std::string::npos) continue;
     const std::string text = file_of_bytes(kind, full ? 1000000 : 500000);
     const std::string file = folder + "/" + kind + file_ending(text);
@@ -214,7 +214,7 @@ void measure_files(const std::string& programs, const std::string& folder, bool 
       if (!all && &program != list.data()) continue;
       const std::string name = program.name;
       if (sound && !full && name != "hf_field" && name != "hf_rig") continue;
-      if (all && !full && only.empty() && (static_cast<std::size_t>(&program - list.data()) + third) % 3 != 0) continue;
+      if (all && !full && only.empty() && (static_cast<std::size_t>(&program - list.data()) + turn) % 6 != 0) continue;
       std::vector<std::string> command = {programs + "/" + program.name};
       std::string said = name;
       for (const std::string& word : program.arguments) {

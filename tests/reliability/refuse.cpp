@@ -1,6 +1,6 @@
 // Refuses every allocation of every story, alone and with all later ones. The call must report it, nothing may leak,
 // the objects must stay usable, and the answer of the story must be the same.
-// Usage: reliability_refuse [--full | --quick] [--story NAME]. Without --full every fourth allocation is refused, from
+// Usage: reliability_refuse [--full | --quick] [--story NAME]. Without --full every sixth allocation is refused, from
 // another one on in each story, alone and with all later ones. With --quick, for emulators, every 101st.
 #include <cmath>
 #include <cstdio>
@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i)
     if (std::string(argv[i]) == "--story") only = argv[i + 1];
   const bool quick = argc > 1 && std::string(argv[1]) == "--quick";
-  const std::size_t step = quick ? 101 : report_full(argc, argv) || !only.empty() ? 1 : 4;
+  const std::size_t step = quick ? 101 : report_full(argc, argv) || !only.empty() ? 1 : 6;
   const Tube tube;
   Tally tally;
   for (const auto& chapters : {field_chapters(), shape_chapters()}) {

@@ -13,7 +13,7 @@
 #include "support/peers.h"
 
 int main(int argc, char** argv) {
-  const auto [given, count, first] = play::Arguments(argc, argv, report_full(argc, argv) ? 1000000 : 40000,
+  const auto [given, count, first] = play::Arguments(argc, argv, report_full(argc, argv) ? 1000000 : 30000,
                                                      HF_SOURCE_DIR "/tests/reliability/inputs/sequences.hex");
   double worst[3] = {0, 0, 0};
   std::uint64_t calls = 0, on_surfaces = 0, edits = 0, refused = 0, failures = 0, executions = 0;

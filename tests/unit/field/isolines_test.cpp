@@ -14,6 +14,7 @@
 #include "field/certificate.h"
 #include "field/levels.h"
 #include "support/engines.h"
+#include "support/full.h"
 
 namespace {
 
@@ -137,12 +138,13 @@ std::vector<double> levels_among(const std::vector<double>& field, std::size_t c
   return levels;
 }
 
-TEST(Isolines, have_no_gaps_over_100000_random_levels_half_of_them_vertex_values) {
+TEST(Isolines, have_no_gaps_at_random_levels_half_of_them_vertex_values) {
   const Surface surfaces[] = {Surface(hf_test::torus(14, 9)), Surface(hf_test::grid(12, 10, 1, 0.3, 4)),
                               Surface(hf_test::from_shape(samples::sphere(4)))};
   std::size_t lines = 0;
+  const std::uint32_t parts = hf_test::is_full() ? 34 : 8;
   for (const Surface& s : surfaces) {
-    for (std::uint32_t part = 0; part < 34; ++part) {
+    for (std::uint32_t part = 0; part < parts; ++part) {
       // smooth fields have long lines, random ones many short ones
       const std::vector<double> noise = hf_test::random_field(s.plain, part);
       const std::vector<double> u = hf_test::field_of(s.plain, [&](double x, double y, double z) {
@@ -152,7 +154,7 @@ TEST(Isolines, have_no_gaps_over_100000_random_levels_half_of_them_vertex_values
       if (HasFailure()) return;
     }
   }
-  EXPECT_GT(lines, 100000u);
+  EXPECT_GT(lines, 3000u * parts);
 }
 
 TEST(Isolines, have_no_gaps_on_flat_areas_and_at_repeated_values) {

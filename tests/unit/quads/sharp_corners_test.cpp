@@ -105,7 +105,7 @@ remesh::QuadMesh quads_of(const std::shared_ptr<const surface::Core>& core, std:
 }
 
 TEST(SharpCorners, a_blade_of_many_teeth_gets_quads_as_good_as_one_of_twelve) {
-  for (const std::uint32_t teeth : hf_test::quick_and_full<std::uint32_t>({12, 24, 40}, {16, 20})) {
+  for (const std::uint32_t teeth : hf_test::quick_and_full<std::uint32_t>({12, 40}, {16, 20, 24})) {
     const auto core = hf_test::make_core(saw(teeth));
     for (const std::int32_t faces : {400, 1000}) {
       FieldQuadReport report;

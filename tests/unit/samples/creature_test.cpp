@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
     Sizes, CreatureSize,
     testing::Combine(testing::Values("horse", "bull", "biped"),
                      testing::ValuesIn(hf_test::is_full() ? std::vector<uint32_t>{1000, 10000, 100000}
-                                                          : std::vector<uint32_t>{1000, 10000})),
+                                                          : std::vector<uint32_t>{1000, 4000})),
     [](const auto& info) { return std::get<0>(info.param) + "_" + std::to_string(std::get<1>(info.param)); });
 
 class EachCreature : public testing::TestWithParam<std::string> {

@@ -8,8 +8,8 @@
 
 #include "assets/shapes.h"
 #include "common/mesh_file.h"
-#include "unit/gltf/gltf_support.h"
 #include "support/program_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 

@@ -200,7 +200,7 @@ TEST(PicturesProgram, MakesThePicturesOfTheDocumentationAgain) {
   ASSERT_EQ(moving.frames.size(), 48u);
 
   // the long form draws every frame
-  const size_t every = hf_test::is_full() ? 1 : 16;
+  const size_t every = hf_test::is_full() ? 1 : 48;
   const samples_test::TemporaryFolder folder;
   std::string said;
   ASSERT_EQ(hf_test::run(hf_test::quoted(HF_PICTURES_PROGRAM) + " " + hf_test::quoted(folder.path) + " --pairs " +

@@ -225,7 +225,8 @@ TEST(QuadsProgram, PutsPolesWhereAFileSays) {
       {"{\"irregular\": [{\"point\": [0, 0, 0]}]}", "irregular[0]: the key \"valence\""},
       {"{\"irregular\": [{\"valence\": 3}]}", "irregular[0]: the key \"point\""},
       {"{\"irregular\": [{\"point\": [0, 0], \"valence\": 3}]}", "irregular[0].point"},
-      {"{\"irregular\": [{\"point\": [0, 0, 0], \"valence\": 3}, {\"point\": [0, 0, 0], \"valence\": 4}]}", "irregular[1].valence"},
+      {"{\"irregular\": [{\"point\": [0, 0, 0], \"valence\": 3}, {\"point\": [0, 0, 0], \"valence\": 4}]}",
+       "irregular[1].valence"},
       {"{\"irregular\": [{\"point\": [0, 0, 0], \"valence\": 3.5}]}", "irregular[0].valence"},
       {"{\"irregular\": [{\"point\": [0, 0, 0], \"valence\": 3, \"direction\": [0, 0, 0]}]}", "irregular[0].direction"},
       {"{\"irregular\": [{\"point\": [0, 0, 0], \"valence\": 3, \"weight\": 1}]}", "irregular[0]: the key \"weight\""}};

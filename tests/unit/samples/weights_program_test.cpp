@@ -11,8 +11,8 @@
 #include "gltf/gltf_write.h"
 #include "gltf/json_file.h"
 #include "gltf/skin_write.h"
-#include "unit/gltf/gltf_support.h"
 #include "support/program_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "peers/paper_transfer.h"
+#include "support/full.h"
 #include "unit/transfer/transfer_support.h"
 
 namespace {
@@ -179,7 +180,7 @@ TEST(TransferPairs, WhenMemoryRunsOutAtAnyAllocationTheTransferStaysAsItWas) {
   transfer.remove_pairs({numbers.data(), numbers.size()});
 
   uint32_t faulted = 0;
-  for (int64_t n = 0;; n += 1 + n / 40) {  // every one at first, then samples
+  for (int64_t n = 0;; n += 1 + n / (hf_test::is_full() ? 40 : 12)) {  // every one at first, then samples
     std::vector<Vec3> out(with_all.size());
     uint32_t stage = 0;
     horse.core->memory->release_kept();
