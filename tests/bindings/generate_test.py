@@ -32,7 +32,8 @@ HF_API hf_result hf_solver_get_words(hf_solver solver, size_t capacity, char* ou
 
 
 # what ships as a language's layer; JavaScript's two hosts reach the library's memory in two ways
-LAYERS = {"C++": ["include/hf/*.hpp"], "C#": ["bindings/csharp/Hf/*.cs"], "Python": ["bindings/python/hf/*.py"],
+LAYERS = {"C++": ["include/hf/*.hpp"], "C#": ["bindings/csharp/Hf/*.cs"], "Python": ["bindings/python/hf/_*.py"],
+          "hf_gltf in Python": ["bindings/python/hf/gltf.py"],  # of another library
           "Rust": ["bindings/rust/src/*.rs", "bindings/rust/build.rs"],
           "JavaScript": ["bindings/js/src/[!nw]*.js"], "JavaScript in node": ["bindings/js/src/n*.js"],
           "JavaScript in a browser": ["bindings/js/src/w*.js"]}

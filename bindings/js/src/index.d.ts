@@ -568,8 +568,8 @@ export interface PoseInfo {
 
 /**
  * A rigid motion of a handle from its rest place. It takes a point p to rotation (p - centroid) + centroid +
- * translation. The centroid is the mean of the region's rest positions, in the unit of the mesh (Pose.handle
- * writes it).
+ * translation. The centroid is the mean of the region's rest positions, in the unit of the mesh: copies of a
+ * vertex along seams count once (Pose.handle writes it).
  */
 export interface Transform {
   /** unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free */
@@ -1407,9 +1407,10 @@ export interface Surface extends Handle {
    * rim, as sites do, and a link costs up to six paths. The library factorises again with the same ordering where
    * that costs less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
    *
-   * Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or
-   * more. Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so
-   * regions, transfers, distances, directions and quads do not see stiffness.
+   * Fields, poses and weights follow the stiffness. Where the stiffness is 100 or more, a pose changes lengths of
+   * edges by about half a percent in the mean. A part that must not bend at all is a rigid piece
+   * (Pose.setRigidPieces). Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths
+   * do not change, so regions, transfers, distances, directions and quads do not see stiffness.
    *
    * A link joins two pieces, and removing the last link between two pieces parts them: a sword that is taken up
    * and dropped. The new surface is the one that Surface.relink makes of the same list of links.

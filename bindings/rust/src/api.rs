@@ -1896,9 +1896,10 @@ impl Surface {
     /// sites do, and a link costs up to six paths. The library factorises again with the same ordering where that costs
     /// less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
     ///
-    /// Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
-    /// Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so regions,
-    /// transfers, distances, directions and quads do not see stiffness.
+    /// Fields, poses and weights follow the stiffness. Where the stiffness is 100 or more, a pose changes lengths of
+    /// edges by about half a percent in the mean. A part that must not bend at all is a rigid piece
+    /// (`Pose::set_rigid_pieces`). Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths
+    /// do not change, so regions, transfers, distances, directions and quads do not see stiffness.
     ///
     /// A link joins two pieces, and removing the last link between two pieces parts them: a sword that is taken up and
     /// dropped. The new surface is the one that `Surface::relink` makes of the same list of links. `Surface::components`

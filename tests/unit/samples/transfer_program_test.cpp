@@ -59,7 +59,7 @@ TEST(TransferProgram, TheHorsesWalkGoesToTheBullAndPairsAreEditedInTheSameSessio
   std::string said;
   ASSERT_EQ(
       transfer(quoted(horse) + " " + quoted(bull) + " --pairs " + quoted(pairs("horse_to_bull.json")) + " -o " +
-                   quoted(out) + " --as skin --key-tolerance 0 --clip all --fps 5 --sheet " +
+                   quoted(out) + " --as skin --key-tolerance 0 --clip all --fps 10 --sheet " +
                    quoted(folder() / "horse_on_bull.png") + " --report " + quoted(folder() / "horse_on_bull.txt") +
                    " --json " + quoted(report) + " --edit " + quoted(pairs("horse_to_bull_edit.json")),
                said),
