@@ -367,6 +367,20 @@ for change in (pull, extrude):
     handles()["high"].location.x += 1
     bpy.context.view_layer.update()
     bpy.ops.hf.update()
+# ---- undo of a drag brings back the pose that was there, with the rotations that were found
+begin(0)
+before = lead(300)
+bpy.ops.ed.undo_push(message="led around")
+handles()["high"].location.z += 0.8
+bpy.context.view_layer.update()
+bpy.ops.ed.undo_push(message="moved on")
+bpy.ops.ed.undo()
+body = bpy.data.objects["tube"]
+active(body)
+np.testing.assert_array_equal(now(), before)
+handles()["high"].location.x += 0.01
+bpy.context.view_layer.update()
+assert np.abs(now() - before).max() < 0.03, np.abs(now() - before).max()
 bpy.ops.ed.undo_push(message="posed")
 seen = now()
 alone = body.copy()  # an operator's step of undo is as this: made before Blender's event

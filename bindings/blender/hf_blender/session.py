@@ -126,13 +126,23 @@ class Session:
         figures["bind_ms"] = 1e3 * (time.perf_counter() - begin)
         self.note = edit.sentence(figures["bind_ms"], paint.words_of(obj, self)) if edit else ""
         self.noted = False  # the panel has shown it
-        if mesh_data.POSED in mesh.attributes:
-            self.standing = standing.start(self, obj, mesh_data.positions_of(mesh))
+        self.undone = False  # the mesh and its handles may be those of another moment
+        self.stand(obj, not (edit and edit.lost))
 
     def close(self):
         if not self.surface.closed:
             self.pose.close()
             self.surface.close()
+
+    def stand(self, obj, stays=True):
+        """Goes on from the pose that the mesh shows. stays: as in standing.start."""
+        self.undone = False
+        if mesh_data.POSED in obj.data.attributes and not np.array_equal(mesh_data.positions_of(obj.data), self.posed):
+            if self.numbers:
+                self.pose.close()
+                self.pose = hf.Pose(self.surface)
+                self.numbers, self.pin, self.free, self.limbs, self.stale = {}, None, set(), {}, True
+            self.standing = standing.start(self, obj, mesh_data.positions_of(obj.data), stays)
 
     def take_paint(self, obj):
         """Takes what is painted on the mesh. Nothing is factorised again for a stroke of some hundred vertices, and the handles
@@ -324,6 +334,8 @@ def session_of(obj, window_manager=None, bind=True, meanwhile=None):
     if found:
         if found.repainted and obj.mode != "EDIT":
             found.follow_paint(obj)
+        if found.undone and obj.mode != "EDIT":
+            found.stand(obj)
         if meanwhile:
             meanwhile()
         return found
@@ -350,7 +362,7 @@ def look_again():
     """After an undo every mesh may be another: the next use compares it with what was bound."""
     unbound.clear()
     for found in sessions.values():
-        found.editing = found.repainted = found.stale = True
+        found.editing = found.repainted = found.stale = found.undone = True
 
 
 def forget_all():
