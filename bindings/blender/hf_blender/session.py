@@ -279,8 +279,7 @@ class Session:
             matrices = np.array([carriers.turned(m, carrier) for m, carrier in zip(motions, found.values())])
             moved = any(not np.array_equal(self.placed.get(i, IDENTITY), m) for i, m in zip(found, matrices))
             told = self.conditions(found)
-            shown = np.array_equal(mesh_data.positions_of(obj.data), self.posed)
-            if again or moved or told != self.told or not shown:
+            if again or moved or told != self.told or not np.array_equal(mesh_data.positions_of(obj.data), self.posed):
                 self.solve(found, matrices)
             self.note = "" if moved and self.noted else self.note
             self.remarks, self.noted = self.remarks_of(found), True
