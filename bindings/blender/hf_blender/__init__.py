@@ -30,14 +30,15 @@ painted_at = 0.0  # when Blender last told of a stroke
 
 
 def follow(scene, keys=None):
-    """Solves the poses of these meshes, or of all with handles. A mesh of a file that was opened binds now."""
+    """Solves the poses of these meshes, or of all with handles, where something has changed: leaving Edit Mode and a rendered
+    picture are events too. A mesh of a file that was opened binds now."""
     if keys is None:
         keys = carriers.carriers_in(scene.objects).keys() | session.sessions.keys()
     keys = keys - session.unbound.keys()
     # a list: a handle may go meanwhile, and its empty with it
     for obj in [o for o in scene.objects if o.type == "MESH" and o.get("hf_key") in keys and o.mode != "EDIT"]:
         try:
-            refresh(obj)
+            refresh(obj, again=False)
         except hf.HfError as error:
             print(f"hf: {obj.name}: {error.message}")
 

@@ -28,6 +28,7 @@ NAME = "hf_name"  # of the object when hf last saw it: a copy has another name
 SEEN = "hf_seen"  # the motion of an empty when the pose was last solved
 FREE = "hf_free"  # True: the pose finds the rotation of the handle
 TURN = "hf_turn"  # the rotation of the handle where the empty has none: w, x, y, z; without it there is none
+PLACED = "hf_placed"  # motions of the handle in the last pose: with the rotation that was found, and as the carrier gave it
 OFFERED = "hf_offered"  # where an offered empty was put
 
 
@@ -76,7 +77,7 @@ def name(obj):
 def strip(carrier):
     """A carrier, or a mesh, is nothing to hf any more."""
     armatures.let_go(carrier, seen=True)
-    for key in (*PROPERTIES, NAME, SEEN, FREE, TURN, OFFERED):
+    for key in (*PROPERTIES, NAME, SEEN, FREE, TURN, PLACED, OFFERED):
         if key in carrier:
             del carrier[key]
 

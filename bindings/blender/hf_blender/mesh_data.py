@@ -44,12 +44,34 @@ def rest_of(mesh):
 
 
 def edited_rest(mesh):
-    """The rest positions after edits: a vertex moves at rest as it was moved in the pose. A new vertex has both positions from
-    its neighbours, or neither."""
+    """The rest positions after edits: a vertex moves at rest as it was moved in the pose, turned back with the surface around
+    it. A new vertex has both positions from its neighbours, or neither."""
     rest, posed = vectors_of(mesh, REST), vectors_of(mesh, POSED)
     if rest is None or posed is None:
         return rest_of(mesh)
-    return rest + (positions_of(mesh) - posed)
+    moves = positions_of(mesh) - posed
+    moved = np.flatnonzero(moves.any(1))
+    if len(moved):
+        turns = turns_at(mesh, moved, rest, posed)
+        rest[moved] += np.einsum("vji,vj->vi", turns, moves[moved].astype(np.float64))
+    return rest
+
+
+def turns_at(mesh, vertices, rest, posed):
+    """The rotation of the surface at some vertices, from rest into a pose: the one that fits the edges of the vertex and of its
+    neighbours. One ring can lie on a line, as at the rim of an extrusion."""
+    edges = column(mesh.edges, "vertices", 2).reshape(-1, 2).astype(np.int64)
+    known = (rest.any(1) | posed.any(1)) & np.isfinite(rest + posed).all(1)  # not a new vertex without positions
+    edges = edges[known[edges].all(1)]
+    apart = [(p[edges[:, 1]] - p[edges[:, 0]]).astype(np.float64) for p in (posed, rest)]
+    products = np.einsum("ei,ej->eij", *apart).reshape(-1, 9)
+    spread = lambda first, second: np.stack([np.bincount(edges[:, 0], first[:, k], len(rest))
+        + np.bincount(edges[:, 1], second[:, k], len(rest)) for k in range(9)], 1)
+    own = spread(products, products)
+    near = (own + spread(own[edges[:, 1]], own[edges[:, 0]]))[vertices].reshape(-1, 3, 3)
+    left, _, right = np.linalg.svd(near)
+    left[:, :, 2] *= np.linalg.det(left @ right)[:, None]
+    return left @ right
 
 
 def size_of(mesh):

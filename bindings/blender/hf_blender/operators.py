@@ -26,11 +26,11 @@ def quiet():
         _busy -= 1
 
 
-def refresh(obj):
+def refresh(obj, again=True):
     if obj is None or obj.type != "MESH":
         raise hf.InvalidArgumentError("select a mesh object")
     with quiet():
-        session.session_of(obj).update(obj)
+        session.session_of(obj).update(obj, again)
 
 
 @contextlib.contextmanager

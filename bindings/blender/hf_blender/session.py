@@ -14,7 +14,7 @@ from mathutils import Quaternion, Vector
 
 import hf
 
-from . import armatures, carriers, edits, mesh_data, paint
+from . import armatures, carriers, edits, mesh_data, paint, standing
 from .mesh_data import faces_of, group_vertices
 
 # The quickest to bind: on meshes of this size minimum degree is ordered in a fifth of the time that nested dissection
@@ -112,6 +112,8 @@ class Session:
         self.free = set()  # hf_id of handles whose rotation the pose finds
         self.limbs = {}  # hf_id -> how much follows, and the steps on the limb, of handles of layer 0
         self.placed = {}  # hf_id -> matrix of the last update
+        self.told = None  # all else that the last pose was solved with
+        self.standing = None  # what the shown shape has beside the pose
         self.mover = ""  # the armature that moves the handles
         self.stood = {}  # hf_id -> where a carrier stood in the last update, without what the armature does
         self.posed = self.rest.copy()
@@ -123,11 +125,24 @@ class Session:
         armatures.carry_all(obj, handles_of(obj), anew=True)
         figures["bind_ms"] = 1e3 * (time.perf_counter() - begin)
         self.note = edit.sentence(figures["bind_ms"], paint.words_of(obj, self)) if edit else ""
+        self.noted = False  # the panel has shown it
+        self.undone = False  # the mesh and its handles may be those of another moment
+        self.stand(obj, not (edit and edit.lost))
 
     def close(self):
         if not self.surface.closed:
             self.pose.close()
             self.surface.close()
+
+    def stand(self, obj, stays=True):
+        """Goes on from the pose that the mesh shows. stays: as in standing.start."""
+        self.undone = False
+        if mesh_data.POSED in obj.data.attributes and not np.array_equal(mesh_data.positions_of(obj.data), self.posed):
+            if self.numbers:
+                self.pose.close()
+                self.pose = hf.Pose(self.surface)
+                self.numbers, self.pin, self.free, self.limbs, self.stale = {}, None, set(), {}, True
+            self.standing = standing.start(self, obj, mesh_data.positions_of(obj.data), stays)
 
     def take_paint(self, obj):
         """Takes what is painted on the mesh. Nothing is factorised again for a stroke of some hundred vertices, and the handles
@@ -165,10 +180,13 @@ class Session:
             self.place_of = mesh_data.places_of(self.rest)
         return self.place_of
 
-    def sync(self, obj):
-        """Handles for new carriers and for painted pins, none for those that have gone."""
+    def sync(self, obj, posed=False):
+        """Handles for new carriers and for painted pins, none for those that have gone. posed: carriers that were in the pose
+        which the mesh shows, alone."""
         begin = time.perf_counter()
         found = carriers.carriers_of(obj["hf_key"])
+        if posed:
+            found = {i: carrier for i, carrier in found.items() if carriers.PLACED in carrier}
         gone = [i for i in self.numbers if i not in found]
         fresh = [i for i in found if i not in self.numbers]
         self.stale = self.stale or bool(gone or fresh)
@@ -222,6 +240,13 @@ class Session:
                     tell(changed, value)
         self.limbs = wanted
 
+    def steps(self):
+        return LENGTH_STEPS if bpy.context.scene.hf_lengths else 0
+
+    def conditions(self, found):
+        """All that a pose is solved with, beside the places of its handles. In another frame it is solved again."""
+        return (set(found), set(self.free), self.limbs, self.pin, self.steps(), bpy.context.scene.frame_current_final)
+
     def remarks_of(self, found):
         """What the pose leaves behind: vertices that no handle reaches, gaps between pieces, handles on light pieces."""
         out, diagonal = [], self.surface.report.bounding_box_diagonal or 1.0
@@ -240,8 +265,9 @@ class Session:
         """Whether a mesh is still the one that was bound: no edit has changed it, and no undo."""
         return all(map(np.array_equal, self.faces, faces_of(mesh))) and np.array_equal(self.rest, mesh_data.edited_rest(mesh))
 
-    def update(self, obj, write=True):
-        """The pose from where the carriers stand, into the mesh."""
+    def update(self, obj, again=True):
+        """The pose from where the carriers stand, into the mesh. again: also where nothing has changed in this frame; a solve
+        goes on from the last one, so the pose settles and the mesh moves."""
         begin = time.perf_counter()
         if self.pose.handle_count:
             mesh_data.refuse_shape_keys(obj)
@@ -251,22 +277,35 @@ class Session:
             self.free_rotations(found, motions)
             self.set_limbs(found)
             matrices = np.array([carriers.turned(m, carrier) for m, carrier in zip(motions, found.values())])
-            self.pose.set_matrices([self.numbers[i] for i in found], matrices)
-            steps = LENGTH_STEPS if bpy.context.scene.hf_lengths else 0
-            self.pose.deform(self.posed, info=self.info, refine=steps)
-            self.remarks = self.remarks_of(found)
             moved = any(not np.array_equal(self.placed.get(i, IDENTITY), m) for i, m in zip(found, matrices))
-            self.note = "" if moved else self.note  # it was shown until now
-            self.placed = dict(zip(found, matrices))
+            told = self.conditions(found)
+            if again or moved or told != self.told or not np.array_equal(mesh_data.positions_of(obj.data), self.posed):
+                self.solve(found, matrices)
+            self.note = "" if moved and self.noted else self.note
+            self.remarks, self.noted = self.remarks_of(found), True
+            self.placed, self.told = dict(zip(found, matrices)), told
             self.stood = {i: armatures.stand_of(carrier).copy() for i, carrier in found.items() if armatures.carried(carrier)}
         else:
             self.posed[:] = self.rest
-            moved, self.remarks = True, []
+            moved, self.remarks, self.told, self.standing = True, [], None, None
         # a mesh that is as it should be stays untouched: Blender would recompute its normals and its box
-        if write and (moved or not np.array_equal(mesh_data.positions_of(obj.data), self.posed)):
+        if moved or not np.array_equal(mesh_data.positions_of(obj.data), self.posed):
             mesh_data.keep_pose(obj.data, self.rest, self.posed)
             self.wrote = True
         figures["update_ms"] = 1e3 * (time.perf_counter() - begin)
+
+    def solve(self, found, matrices):
+        given, share, sent = dict(zip(found, matrices)), 0.0, matrices
+        if self.standing:
+            share = self.standing.share(given, self.free)
+            sent = self.standing.shifted(given, share, self.free)
+        self.pose.set_matrices([self.numbers[i] for i in found], sent)
+        self.pose.deform(self.posed, info=self.info, refine=self.steps())
+        if share > 0:
+            self.posed[:] = self.posed + share * self.standing.offset
+        else:
+            self.standing = None
+        standing.keep(self, found, matrices, sent)
 
 
 def forget_removed():
@@ -294,6 +333,8 @@ def session_of(obj, window_manager=None, bind=True, meanwhile=None):
     if found:
         if found.repainted and obj.mode != "EDIT":
             found.follow_paint(obj)
+        if found.undone and obj.mode != "EDIT":
+            found.stand(obj)
         if meanwhile:
             meanwhile()
         return found
@@ -320,7 +361,7 @@ def look_again():
     """After an undo every mesh may be another: the next use compares it with what was bound."""
     unbound.clear()
     for found in sessions.values():
-        found.editing = found.repainted = found.stale = True
+        found.editing = found.repainted = found.stale = found.undone = True
 
 
 def forget_all():
