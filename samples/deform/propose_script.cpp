@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "deform/model_skeleton.h"
 
@@ -106,25 +107,42 @@ namespace {
 
 using Handles = std::vector<ProposedHandle>;
 
-// The mean of the tenth of the vertices that lies nearest to a point: the end of a region. A single vertex lies on one
-// side of a neck; half of a region is no end.
-glm::dvec3 end_towards(const FlatMesh& mesh, std::vector<uint32_t> vertices, const glm::dvec3& point) {
-  constexpr size_t share = 10;
-  if (vertices.empty()) return point;
-  const size_t count = std::max<size_t>(1, vertices.size() / share);
-  const auto distance = [&](uint32_t v) { return glm::distance(mesh.positions[v], point); };
-  std::nth_element(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(count - 1), vertices.end(),
-                   [&](uint32_t a, uint32_t b) { return distance(a) < distance(b); });
+// Places of the vertices, each once: copies at seams must not weigh more.
+std::vector<glm::dvec3> places_of(const FlatMesh& mesh, const std::vector<uint32_t>& vertices) {
+  std::vector<glm::dvec3> out;
+  std::set<uint32_t> seen;
+  for (const uint32_t v : vertices)
+    if (seen.insert(mesh.welded[v]).second) out.push_back(mesh.positions[v]);
+  return out;
+}
+
+glm::dvec3 mean_of(const std::vector<glm::dvec3>& places) {
   glm::dvec3 sum(0);
-  for (size_t i = 0; i < count; ++i) sum += mesh.positions[vertices[i]] / static_cast<double>(count);
+  for (const glm::dvec3& p : places) sum += p / static_cast<double>(places.size());
   return sum;
 }
 
+// The end of a region that lies towards a point: the mean of its nearest part. The nearest vertex alone lies on one
+// side of a neck; half of a region is no end.
+glm::dvec3 end_towards(const FlatMesh& mesh, const std::vector<uint32_t>& vertices, const glm::dvec3& point) {
+  constexpr double share = 0.15;  // of the way from the nearest vertex to the farthest
+  std::vector<glm::dvec3> places = places_of(mesh, vertices);
+  if (places.empty()) return point;
+  const auto nearer = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::distance(a, point) < glm::distance(b, point);
+  };
+  const auto [first, last] = std::minmax_element(places.begin(), places.end(), nearer);
+  const double near = glm::distance(*first, point), far = glm::distance(*last, point);
+  const double most = near + share * (far - near);
+  places.erase(
+      std::remove_if(places.begin(), places.end(), [&](const glm::dvec3& p) { return glm::distance(p, point) > most; }),
+      places.end());
+  return mean_of(places);
+}
+
 glm::dvec3 centre_of(const FlatMesh& mesh, const ProposedHandle& handle) {
-  const auto count = static_cast<double>(handle.entry.vertices.size());
-  glm::dvec3 sum(0);
-  for (const uint32_t v : handle.entry.vertices) sum += mesh.positions[v] / count;
-  return count > 0 ? sum : handle.place;
+  const std::vector<glm::dvec3> places = places_of(mesh, handle.entry.vertices);
+  return places.empty() ? handle.place : mean_of(places);
 }
 
 // Where the limb of a tip begins: the nearest end of what holds, of the trunk where it does. A hand that hangs down is

@@ -38,7 +38,7 @@ FlatMesh figure() {
   add({-1, 0, -1}, {2, 6, 2});           // the trunk: 0 to 7
   add({-1, 6.5, -1}, {2, 2, 2});         // the head: 8 to 15
   add({5, 4.75, -0.25}, {1, 0.5, 0.5});  // the hand: 16 to 23
-  mesh.loose.assign(mesh.positions.size(), 0);
+  mesh.weld();
   return mesh;
 }
 
