@@ -12,6 +12,7 @@
 #include "gltf/file_name.h"
 #include "gltf/file_write.h"
 #include "gltf/gltf_write.h"
+#include "gltf/json_file.h"
 
 namespace samples {
 
@@ -259,7 +260,7 @@ std::vector<Primitive> parts_of(const Primitive& whole, const SplitMesh& split) 
 
 Model to_model(const SurfaceMesh& mesh, const std::string& name) {
   const SplitMesh split = split_corners(mesh);
-  Model model = make_model(name, split.positions, split.triangles);
+  Model model = make_model(as_utf8(name), split.positions, split.triangles);
   std::vector<Primitive>& parts = model.meshes[0].primitives;
   Primitive& whole = parts[0];
   for (size_t v = 0; v < split.positions.size(); ++v) {
@@ -271,7 +272,7 @@ Model to_model(const SurfaceMesh& mesh, const std::string& name) {
   if (split.materials.empty()) return model;
   for (const std::string& material : mesh.corners.material_names) {
     model.materials.emplace_back();
-    model.materials.back().name = material;
+    model.materials.back().name = as_utf8(material);
     model.materials.back().metallic = 0;
   }
   parts = parts_of(whole, split);

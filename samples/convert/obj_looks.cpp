@@ -10,6 +10,7 @@
 #include "common/mesh_file_parts.h"
 #include "gltf/file_bytes.h"
 #include "gltf/file_write.h"
+#include "gltf/json_file.h"
 
 namespace samples {
 namespace {
@@ -24,7 +25,7 @@ class LooksReader {
     for (const std::string& name : mesh.corners.material_names) {
       numbers_.emplace(name, static_cast<int>(looks_.materials.size()));
       looks_.materials.emplace_back();
-      looks_.materials.back().name = name;
+      looks_.materials.back().name = as_utf8(name);
       looks_.materials.back().metallic = 0;
     }
     looks_.images_of.assign(looks_.materials.size(), -1);

@@ -232,6 +232,17 @@ TEST_F(ConvertProgram, MaterialsOfAnObjCarryTheirColourAndImage) {
   expect_said("warning: materials that no .mtl file describes: 1");
 }
 
+// JSON holds no byte of Latin-1.
+TEST_F(ConvertProgram, NamesOfMaterialsInLatin1AreRead) {
+  std::ofstream(path("a.mtl")) << "newmtl m\xfc\nKd 0.5 0 0\n";
+  std::ofstream(path("a.obj")) << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\xfc\nf 1 2 3\n";
+  ASSERT_EQ(convert("a.obj", "a.glb"), 0) << said_;
+  const Model model = read_gltf(path("a.glb"));
+  ASSERT_EQ(model.materials.size(), 1u);
+  EXPECT_EQ(model.materials[0].name, "m\xc3\xbc");
+  EXPECT_EQ(model.materials[0].base_color.r, 0.5f);
+}
+
 // It wrote a .glb of 132 bytes and said that nothing was lost.
 TEST_F(ConvertProgram, RefusesAFileWithoutASurface) {
   for (const char* text : {"", "# nothing\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nf 1 1\n"}) {
