@@ -190,11 +190,11 @@ void FaceCollector::finish() {
 }
 
 SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string& extension, const std::string& name,
-                            const MeshLimits& limits) {
+                            const MeshLimits& limits, bool corners) {
   SurfaceMesh mesh;
   const FileKind kind = kind_of(bytes.data(), bytes.size(), bytes.size(), extension);
   if (kind == FileKind::obj) {
-    mesh = read_obj(bytes, name, limits);
+    mesh = read_obj(bytes, name, limits, corners);
   } else if (kind == FileKind::off) {
     mesh = read_off(bytes, name, limits);
   } else if (kind == FileKind::ply) {
@@ -202,16 +202,16 @@ SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string
   } else if (kind == FileKind::stl) {
     mesh = read_stl(bytes, name, limits);
   } else {
-    const std::string advice = advice_on(kind);
-    throw std::runtime_error(name + " is " + name_of(kind) +
-                             ", which is not read; .obj, .off, .ply, .stl, .gltf, .glb and .vrm are" +
+    const std::string advice = advice_on(kind), read = ".obj, .off, .ply, .stl, " + model_endings("and");
+    if (kind == FileKind::unknown) throw std::runtime_error(name + " is of no known format; " + read + " are read");
+    throw std::runtime_error(name + " is " + name_of(kind) + ", which is not read; " + read + " are" +
                              (advice.empty() ? "" : ": " + advice));
   }
   check_positions(mesh, name);
   return mesh;
 }
 
-SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& limits) {
+SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& limits, bool corners) {
   const FileKind kind = kind_of_file(file);
   if (is_model(kind)) {
     Model model = read_gltf(file);
@@ -226,7 +226,7 @@ SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& 
   // a file that is not there is refused by name
   const bool reads = is_read || !std::filesystem::exists(file);
   return read_mesh_bytes(reads ? read_bytes(file, limits.max_file_bytes) : std::vector<uint8_t>(),
-                         file.extension().string(), file.string(), limits);
+                         file.extension().string(), file.string(), limits, corners);
 }
 
 FlatMesh to_flat_mesh(const SurfaceMesh& mesh) {

@@ -22,6 +22,19 @@ namespace samples {
 
 using namespace hf_gltf;
 
+// What an .obj says of the corners of its faces, and of looks. Other formats have none of it.
+struct Corners {
+  std::vector<glm::dvec2> texcoords;  // (0, 0) is the lower left of the image
+  std::vector<glm::vec3> normals;
+  // One a corner, in the order of the faces' corners: into the lists above, or none. Empty: no corner has any.
+  std::vector<uint32_t> texcoord_of, normal_of;
+  std::vector<std::string> material_names;
+  std::vector<uint32_t> material_of;   // one a face, or none; empty: no face has any
+  std::vector<std::string> libraries;  // the .mtl files that the .obj names
+
+  static constexpr uint32_t none = UINT32_MAX;
+};
+
 struct SurfaceMesh {
   std::vector<glm::dvec3> positions;
   std::vector<uint32_t> triangles;  // three vertices each
@@ -32,6 +45,7 @@ struct SurfaceMesh {
   std::vector<uint32_t> face_groups;
   std::vector<glm::vec3> normals;  // per vertex, or empty
   std::vector<glm::vec4> colors;   // per vertex, rgba 0..1, or empty
+  Corners corners;                 // filled where it is asked for
   std::vector<std::string> warnings;
   std::vector<std::string> ignored;  // what the file has beside these, such as "materials"
 
@@ -44,14 +58,21 @@ struct MeshLimits {
   uint32_t max_triangles = 40000000;
 };
 
-SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& limits = {});
+// corners: reads what an .obj says of corners and looks, and lists it under `ignored` otherwise. A normal that all
+// corners of each vertex share becomes the normal of the vertex.
+SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& limits = {}, bool corners = false);
 // The same from bytes, but for glTF; extension is ".obj", ".off", ".ply" or ".stl", for bytes that do not tell.
 SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string& extension, const std::string& name,
-                            const MeshLimits& limits = {});
+                            const MeshLimits& limits = {}, bool corners = false);
 
 // .obj, .off and .ply (binary little endian), .stl (binary), .gltf and .glb (triangles). Numbers are written so that
-// they read back exactly as doubles (.ply, .obj, .off) or floats (.stl, .gltf, .glb).
+// they read back exactly as doubles (.ply, .obj, .off) or floats (.stl, .gltf, .glb). Only .obj, .gltf and .glb hold
+// corners: in glTF a vertex has a copy for each further pair of normal and texture coordinate, behind all vertices, and
+// faces of each material are a primitive. An .obj names the .mtl files; they are not written here.
 void write_mesh_file(const SurfaceMesh& mesh, const std::filesystem::path& file);
+
+// The model that is written as glTF. Its materials have names alone.
+Model to_model(const SurfaceMesh& mesh, const std::string& name);
 
 // A FlatMesh of one part, welded, for the functions that take one; and the other way round.
 FlatMesh to_flat_mesh(const SurfaceMesh& mesh);

@@ -73,7 +73,8 @@ class FaceCollector {
   bool left_out_ = false;
 };
 
-SurfaceMesh read_obj(const std::vector<uint8_t>& bytes, const std::string& name, const MeshLimits& limits);
+SurfaceMesh read_obj(const std::vector<uint8_t>& bytes, const std::string& name, const MeshLimits& limits,
+                     bool corners);
 SurfaceMesh read_off(const std::vector<uint8_t>& bytes, const std::string& name, const MeshLimits& limits);
 SurfaceMesh read_ply(const std::vector<uint8_t>& bytes, const std::string& name, const MeshLimits& limits);
 SurfaceMesh read_stl(const std::vector<uint8_t>& bytes, const std::string& name, const MeshLimits& limits);

@@ -3,12 +3,16 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
+#include "common/corner_split.h"
 #include "common/mesh_file.h"
 #include "gltf/file_name.h"
 #include "gltf/file_write.h"
 #include "gltf/gltf_write.h"
+#include "gltf/json_file.h"
 
 namespace samples {
 
@@ -76,6 +80,17 @@ void check(const SurfaceMesh& mesh, const std::string& name) {
   for (const uint32_t group : mesh.face_groups) {
     if (group >= mesh.group_names.size()) fail("a face belongs to a group without a name");
   }
+  const Corners& of = mesh.corners;
+  const size_t face_corners = mesh.face_sizes.empty() ? mesh.triangles.size() : corners;
+  const auto check_list = [&](const std::vector<uint32_t>& list, size_t values, size_t length, const char* what) {
+    if (!list.empty() && list.size() != length) fail(std::string("there is not one ") + what);
+    for (const uint32_t i : list) {
+      if (i >= values && i != Corners::none) fail(std::string("there is no such ") + what);
+    }
+  };
+  check_list(of.texcoord_of, of.texcoords.size(), face_corners, "texture coordinate per corner");
+  check_list(of.normal_of, of.normals.size(), face_corners, "normal per corner");
+  check_list(of.material_of, of.material_names.size(), mesh.face_count(), "material per face");
 }
 
 template <typename Function>
@@ -91,22 +106,34 @@ void each_face(const SurfaceMesh& mesh, Function function) {
 
 std::string obj_text(const SurfaceMesh& mesh) {
   Text out;
+  const Corners& of = mesh.corners;
+  for (const std::string& library : of.libraries) out << "mtllib " << library << "\n";
   for (size_t v = 0; v < mesh.positions.size(); ++v) {
     (out << "v").vector(mesh.positions[v]);
     if (!mesh.colors.empty()) out.vector(glm::vec3(mesh.colors[v]));
     out << "\n";
   }
-  for (const glm::vec3& n : mesh.normals) (out << "vn").vector(n) << "\n";
-  uint32_t group = UINT32_MAX;
+  for (const glm::dvec2& uv : of.texcoords) (out << "vt").vector(uv) << "\n";
+  const bool by_corner = !of.normal_of.empty();
+  for (const glm::vec3& n : by_corner ? of.normals : mesh.normals) (out << "vn").vector(n) << "\n";
+  uint32_t group = UINT32_MAX, material = Corners::none;
+  size_t corner = 0;
   each_face(mesh, [&](size_t f, const uint32_t* corners, uint32_t size) {
     if (!mesh.face_groups.empty() && mesh.face_groups[f] != group) {
       group = mesh.face_groups[f];
       out << "g " << mesh.group_names[group] << "\n";
     }
+    if (!of.material_of.empty() && of.material_of[f] != material) {
+      material = of.material_of[f];
+      out << "usemtl" << (material == Corners::none ? "" : " " + of.material_names[material]) << "\n";
+    }
     out << "f";
-    for (uint32_t c = 0; c < size; ++c) {
+    for (uint32_t c = 0; c < size; ++c, ++corner) {
       (out << " ").number(corners[c] + 1ull);
-      if (!mesh.normals.empty()) (out << "//").number(corners[c] + 1ull);
+      const uint32_t uv = of.texcoord_of.empty() ? Corners::none : of.texcoord_of[corner];
+      const uint32_t normal = by_corner ? of.normal_of[corner] : mesh.normals.empty() ? Corners::none : corners[c];
+      if (uv != Corners::none) (out << "/").number(uv + 1ull);
+      if (normal != Corners::none) (out << (uv == Corners::none ? "//" : "/")).number(normal + 1ull);
     }
     out << "\n";
   });
@@ -187,7 +214,70 @@ std::string stl_bytes(const SurfaceMesh& mesh) {
   return out.str();
 }
 
+// Some triangles as a primitive, with their vertices in order. alone: vertices that it has beside.
+Primitive part_of(const Primitive& whole, const std::vector<uint32_t>& corners, std::vector<uint32_t> alone,
+                  std::vector<uint32_t>& number) {
+  std::vector<uint32_t>& vertices = alone;
+  vertices.insert(vertices.end(), corners.begin(), corners.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  Primitive part;
+  part.texcoords.resize(whole.texcoords.size());
+  for (const uint32_t v : vertices) {
+    number[v] = static_cast<uint32_t>(part.positions.size());
+    part.positions.push_back(whole.positions[v]);
+    part.normals.push_back(whole.normals[v]);
+    if (!whole.colors.empty()) part.colors.push_back(whole.colors[v]);
+    for (size_t set = 0; set < whole.texcoords.size(); ++set) part.texcoords[set].push_back(whole.texcoords[set][v]);
+  }
+  for (const uint32_t v : corners) part.indices.push_back(number[v]);
+  return part;
+}
+
+// A primitive for each material, in the order of the faces. Isolated vertices stand in the first.
+std::vector<Primitive> parts_of(const Primitive& whole, const SplitMesh& split) {
+  std::vector<uint32_t> order, number(whole.positions.size());
+  std::map<uint32_t, std::vector<uint32_t>> corners;
+  std::vector<uint8_t> used(whole.positions.size(), 0);
+  for (size_t i = 0; i < split.triangles.size(); ++i) {
+    std::vector<uint32_t>& here = corners[split.materials[i / 3]];
+    if (here.empty()) order.push_back(split.materials[i / 3]);
+    here.push_back(split.triangles[i]);
+    used[split.triangles[i]] = 1;
+  }
+  std::vector<uint32_t> isolated;
+  for (uint32_t v = 0; v < used.size(); ++v)
+    if (!used[v]) isolated.push_back(v);
+  std::vector<Primitive> out;
+  for (const uint32_t material : order) {
+    out.push_back(part_of(whole, corners[material], std::exchange(isolated, {}), number));
+    out.back().material = material == Corners::none ? -1 : static_cast<int>(material);
+  }
+  return out;
+}
+
 }  // namespace
+
+Model to_model(const SurfaceMesh& mesh, const std::string& name) {
+  const SplitMesh split = split_corners(mesh);
+  Model model = make_model(as_utf8(name), split.positions, split.triangles);
+  std::vector<Primitive>& parts = model.meshes[0].primitives;
+  Primitive& whole = parts[0];
+  for (size_t v = 0; v < split.positions.size(); ++v) {
+    if (!mesh.normals.empty()) whole.normals[v] = mesh.normals[split.origins[v]];
+    if (!split.normals.empty() && split.normals[v] != glm::vec3(0)) whole.normals[v] = split.normals[v];
+    if (!mesh.colors.empty()) whole.colors.push_back(mesh.colors[split.origins[v]]);
+  }
+  if (!split.texcoords.empty()) whole.texcoords.push_back(split.texcoords);
+  if (split.materials.empty()) return model;
+  for (const std::string& material : mesh.corners.material_names) {
+    model.materials.emplace_back();
+    model.materials.back().name = as_utf8(material);
+    model.materials.back().metallic = 0;
+  }
+  parts = parts_of(whole, split);
+  return model;
+}
 
 void write_mesh_file(const SurfaceMesh& mesh, const std::filesystem::path& file) {
   check(mesh, file.string());
@@ -201,11 +291,7 @@ void write_mesh_file(const SurfaceMesh& mesh, const std::filesystem::path& file)
   } else if (extension == ".stl") {
     write_bytes(file, stl_bytes(mesh));
   } else if (extension == ".glb" || extension == ".gltf" || extension == ".vrm") {
-    Model model = make_model(file.stem().string(), mesh.positions, mesh.triangles);
-    Primitive& primitive = model.meshes[0].primitives[0];
-    if (!mesh.normals.empty()) primitive.normals = mesh.normals;
-    primitive.colors = mesh.colors;
-    write_gltf(model, file);
+    write_gltf(to_model(mesh, file.stem().string()), file);
   } else {
     throw std::runtime_error(file.string() +
                              ": the format is not written; .obj, .off, .ply, .stl, .gltf and .glb are.");

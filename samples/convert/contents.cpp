@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gltf/gltf_write.h"
+#include "gltf/plain_looks.h"
 
 namespace samples {
 namespace {
@@ -36,7 +37,7 @@ const char* const vertices_of = "vertices (only their corners stay)";
 
 Contents contents_of(const Model& model, const FlatMesh* surface) {
   size_t vertices = 0, triangles = 0, normals = 0, colors = 0, lines = 0, points = 0, texcoords = 0, targets = 0;
-  size_t joints = 0, instances = 0;
+  size_t joints = 0, instances = 0, more_texcoords = 0;
   for (const MeshData& mesh : model.meshes) {
     for (const Primitive& part : mesh.primitives) {
       vertices += part.positions.size();
@@ -45,7 +46,8 @@ Contents contents_of(const Model& model, const FlatMesh* surface) {
       points += part.topology == Topology::points;
       normals += part.normals.size();
       colors += part.colors.size();
-      texcoords += part.texcoords.size();
+      texcoords += !part.texcoords.empty();
+      more_texcoords += part.texcoords.size() - !part.texcoords.empty();
     }
     if (!mesh.primitives.empty()) targets += mesh.primitives[0].targets.size();
   }
@@ -56,6 +58,7 @@ Contents contents_of(const Model& model, const FlatMesh* surface) {
     normals = static_cast<size_t>(std::count_if(surface->normals.begin(), surface->normals.end(), is_some));
     colors = surface->colors.size();
   }
+  const size_t base_images = plain_looks(model).images.size();
   for (const Skin& skin : model.skins) joints += skin.joints.size();
   for (const Node& node : model.nodes) instances += node.instances ? 1 : 0;
   return {{vertices, vertex, vertices_of, to_all & ~to_stl},
@@ -67,9 +70,11 @@ Contents contents_of(const Model& model, const FlatMesh* surface) {
           {joints, "joint", "joints", to_gltf},
           {model.animations.size(), "clip", "clips", to_gltf},
           {targets, "morph target", "morph targets", to_gltf},
-          {model.materials.size(), "material", "materials", to_gltf},
-          {image_count(model), "image", "images", to_gltf},
-          {texcoords, "set of texture coordinates", "sets of texture coordinates", to_gltf},
+          {model.materials.size(), "material", "materials", to_gltf | to_obj},
+          {base_images, "image", "images", to_gltf | to_obj},
+          {image_count(model) - base_images, "image of no base colour", "images of no base colour", to_gltf},
+          {texcoords, "set of texture coordinates", "sets of texture coordinates", to_gltf | to_obj},
+          {more_texcoords, "further set of texture coordinates", "further sets of texture coordinates", to_gltf},
           {lines, "set of lines", "sets of lines", to_gltf},
           {points, "set of points", "sets of points", to_gltf},
           {instances, "set of instances", "sets of instances", to_gltf},
@@ -83,6 +88,9 @@ Contents contents_of(const SurfaceMesh& mesh) {
       {polygons(mesh), "polygon (cut into triangles)", "polygons (cut into triangles)", to_obj | to_off | to_ply},
       {mesh.group_names.size(), "group", "groups", to_obj},
       {mesh.normals.size(), "normal", "normals", to_gltf | to_obj | to_off | to_ply},
+      {mesh.corners.normals.size(), "normal of corners", "normals of corners", to_gltf | to_obj},
+      {mesh.corners.texcoords.size(), "texture coordinate", "texture coordinates", to_gltf | to_obj},
+      {mesh.corners.material_names.size(), "material", "materials", to_gltf | to_obj},
       {mesh.colors.size(), "vertex colour", "vertex colours", to_gltf | to_obj | to_off | to_ply},
       {seen_through(mesh), "transparency", "transparencies", to_gltf | to_off | to_ply},
       {isolated(mesh), "isolated vertex", "isolated vertices", to_gltf | to_obj | to_off | to_ply},

@@ -4,6 +4,7 @@
 
 #include "common/program.h"
 #include "convert/contents.h"
+#include "convert/obj_looks.h"
 #include "gltf/file_kind.h"
 #include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
@@ -17,7 +18,7 @@ const char usage[] =
   IN    .gltf .glb .vrm .obj .off .ply .stl; where the build has assimp also .fbx .dae .bvh
   OUT   .gltf .glb .vrm .obj .off .ply .stl, chosen by the ending
   A model keeps its nodes, skins, clips, morph targets and materials in .gltf and .glb. The other formats get its surface
-  at rest. A .vrm can be written only from a .vrm, because it needs a humanoid map and a licence.
+  at rest; .obj also texture coordinates, and materials and their images in files beside it. A .vrm can be written only from a .vrm, because it needs a humanoid map and a licence.
   --help
 )";
 
@@ -60,6 +61,15 @@ void say(const std::filesystem::path& file, const Contents& contents, Format for
   std::printf("%s: kept %s; lost %s\n", file.string().c_str(), kept.c_str(), lost.c_str());
 }
 
+// A cloud of points stays one in .ply and .off; a file without vertices is damaged.
+void refuse_empty(const SurfaceMesh& mesh, const Command& command, Format format) {
+  const FileKind kind = kind_of_file(command.in);
+  const bool holds_points = (kind == FileKind::ply || kind == FileKind::off) && (format == to_ply || format == to_off);
+  const char* missing = mesh.positions.empty() ? "vertex" : mesh.face_count() == 0 && !holds_points ? "face" : nullptr;
+  if (missing)
+    throw std::runtime_error(command.in.string() + " has no " + missing + ", so there is no surface to write");
+}
+
 void run(const Command& command) {
   const Format format = format_of(command.out);
   if (is_model(kind_of_file(command.in))) {
@@ -71,14 +81,28 @@ void run(const Command& command) {
       surface = flatten(model);
       if (surface.triangles.empty())
         throw std::runtime_error(command.in.string() + " has no triangles; write its nodes and clips as .glb");
-      write_mesh_file(to_surface_mesh(surface), command.out);
+      SurfaceMesh mesh = format == to_obj ? to_obj_mesh(model, surface) : to_surface_mesh(surface);
+      if (format == to_obj) write_obj_looks(plain_looks(model), command.out, mesh);
+      write_mesh_file(mesh, command.out);
     }
     say(command.out, contents_of(model, format == to_gltf ? nullptr : &surface), format, model.warnings);
     return;
   }
-  const SurfaceMesh mesh = read_mesh_file(command.in);
-  write_mesh_file(mesh, command.out);
-  say(command.out, contents_of(mesh), format, mesh.warnings);
+  SurfaceMesh mesh = read_mesh_file(command.in, {}, true);
+  refuse_empty(mesh, command, format);
+  PlainLooks looks;
+  if (format == to_gltf || format == to_obj) looks = read_obj_looks(command.in, mesh, format == to_gltf);
+  if (format == to_gltf) {
+    Model model = to_model(mesh, command.out.stem().string());
+    if (!looks.materials.empty()) set_plain_looks(model, looks);
+    write_gltf(model, command.out);
+  } else {
+    if (format == to_obj) write_obj_looks(looks, command.out, mesh);
+    write_mesh_file(mesh, command.out);
+  }
+  Contents contents = contents_of(mesh);
+  contents.push_back({looks.images.size(), "image", "images", to_gltf | to_obj});
+  say(command.out, contents, format, mesh.warnings);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ const char* usage =
     "  --script FILE      the script (format in samples/deform/README.md)\n"
     "  --propose          lists the handles the library proposes and adds what holds, feet for example; without a "
     "script\n"
-    "                     it drags the longest tips\n"
+    "                     it raises arms and the longest tips, and tilts heads\n"
     "  --up AXIS          away from the ground: x, y, z, -x, -y or -z (default y, as in glTF)\n"
     "  -o FILE            the animation as .glb or .gltf: one shape key per key frame, exact at the keys\n"
     "  --keys N           key frames per second in OUT.glb (default 8)\n"
@@ -255,7 +255,7 @@ bool add_proposals(const Command& command, const PosableMesh& mesh, const Posabl
   if (command.script.empty()) {
     constexpr size_t tips = 3;  // dragged one after the other
     const bool paper = script.paper;
-    script = propose_script(handles, command.up, tips);
+    script = propose_script(mesh.flat, handles, command.up, tips);
     script.paper = paper;
   } else {
     script.steps.insert(script.steps.begin(), hold_step(handles));

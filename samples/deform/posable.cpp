@@ -144,6 +144,22 @@ void Posable::stiffen(const std::vector<StiffEntry>& regions) {
   }
 }
 
+// The library counts handles; the script names them.
+void Posable::expect_added(hf_result result, const std::string& name) const {
+  if (result == HF_OK) return;
+  hf_error_detail detail;
+  hf_error_get_detail(&detail);
+  std::string message = detail.message;
+  for (const Live& live : live_) {
+    const std::string number = "belongs to handle " + std::to_string(live.number) + " ";
+    const size_t at = message.find(number);
+    if (at == std::string::npos) continue;
+    message.replace(at, number.size(), "belongs to handle \"" + live.name + "\" ");
+    break;
+  }
+  throw std::runtime_error("handle \"" + name + "\": " + message);
+}
+
 void Posable::add(const std::vector<HandleEntry>& handles) {
   for (const HandleEntry& entry : handles) {
     for (const Live& live : live_) {
@@ -167,7 +183,7 @@ void Posable::add(const std::vector<HandleEntry>& handles) {
       desc.region_counts = &count;
       desc.region_vertices = live.vertices.data();
     }
-    expect_ok(hf_pose_add_handles(pose_, &desc, &live.number), "handle \"" + entry.name + "\"");
+    expect_added(hf_pose_add_handles(pose_, &desc, &live.number), entry.name);
     hf_handle_info info = HF_INIT(hf_handle_info);
     expect_ok(hf_pose_get_handle(pose_, live.number, &info), "handle \"" + entry.name + "\"");
     live.centroid = {info.centroid[0], info.centroid[1], info.centroid[2]};

@@ -108,6 +108,7 @@ class Posable {
   glm::dvec3 at(const glm::dvec3& fraction) const { return lower_ + fraction * (upper_ - lower_); }
   // name: of the region, for errors.
   std::vector<uint32_t> vertices_of(const HandleEntry& entry, const std::string& name) const;
+  void expect_added(hf_result result, const std::string& name) const;
   HandlePlace place(const Live& live, const MotionEntry& motion, double amount) const;
 
   const FlatMesh& mesh_;

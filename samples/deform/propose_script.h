@@ -25,9 +25,10 @@ std::string list_of(const std::vector<ProposedHandle>& handles);
 // The step that adds what holds.
 Step hold_step(const std::vector<ProposedHandle>& handles);
 
-// Shows all proposals, then drags the longest tips up and outwards, `tips` of them at most: joints only where there is
-// no tip.
-ScriptFile propose_script(const std::vector<ProposedHandle>& handles, const glm::dvec3& up, size_t tips);
+// Shows all proposals, then raises limbs by their tips, arms first and then the longest, `tips` of them at most. Limbs
+// keep their lengths. A limb that stands up, such as a head, tilts. Joints are dragged only where there is no tip.
+ScriptFile propose_script(const FlatMesh& mesh, const std::vector<ProposedHandle>& handles, const glm::dvec3& up,
+                          size_t tips);
 
 }  // namespace samples
 

@@ -125,7 +125,7 @@ Comparison compare(const Model& model, const Rig& rig, const std::vector<Pose>& 
 }
 
 void write_weight_sheet(const std::string& file, const Model& model, const Rig& rig, const std::vector<Pose>& poses,
-                        const RigWeights& weights, const Comparison& found, const std::string& title) {
+                        const RigWeights& weights, const Comparison& found, bool has_given, const std::string& title) {
   std::vector<Picture> tiles;
   std::vector<std::string> labels;
   const auto draw = [&](const std::vector<glm::dvec3>& points, const RigWeights* shown,
@@ -152,6 +152,13 @@ void write_weight_sheet(const std::string& file, const Model& model, const Rig& 
   };
   const std::vector<glm::dmat4> rest = global_matrices(model, rest_pose(model));
   const std::vector<glm::dvec3> still = pose_rig(rig, rest, rig.given);
+  if (!has_given) {
+    draw(still, &weights, nullptr, 1, "computed");
+    if (!poses.empty())
+      draw(pose_rig(rig, global_matrices(model, poses[found.worst_pose]), weights), &weights, nullptr, 1, "in a pose");
+    write_png(file, contact_sheet(tiles, 2, labels, title));
+    return;
+  }
   const std::vector<double> change = differences(rig.given, weights, still.size());
   draw(still, &rig.given, nullptr, 1, "weights of the file");
   draw(still, &weights, nullptr, 1, "computed");

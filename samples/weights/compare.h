@@ -19,9 +19,9 @@ struct Comparison {
 Comparison compare(const Model& model, const Rig& rig, const std::vector<Pose>& poses, const RigWeights& weights);
 
 // A sheet: given weights, computed weights and their difference in colour, at rest and in the pose of the largest
-// difference.
+// difference. Without given weights: the computed ones, at rest and in the pose that moves most.
 void write_weight_sheet(const std::string& file, const Model& model, const Rig& rig, const std::vector<Pose>& poses,
-                        const RigWeights& weights, const Comparison& found, const std::string& title);
+                        const RigWeights& weights, const Comparison& found, bool has_given, const std::string& title);
 
 }  // namespace samples
 

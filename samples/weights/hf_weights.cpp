@@ -262,6 +262,18 @@ Model read_model(const Command& options, std::vector<Rig>& rigs, bool& given) {
   return std::move(taken.model);
 }
 
+// Joints of this share or more outside the mesh: the skeleton is of another build. Own skeletons of 36 public models
+// have 15 % at most (a spider), skeletons of other bodies 37 % to 77 %. Half warns of long legs; double misses most.
+constexpr uint32_t misfit_divisor = 4;
+
+void warn_of_misfit(uint32_t outside, size_t joints) {
+  if (outside * misfit_divisor < joints) return;
+  std::fprintf(stderr,
+               "warning: %u of %zu joints lie outside the mesh, so the skeleton does not fit this body; give --pairs "
+               "with places such as hands, elbows, knees and feet, or move joints with --bones\n",
+               outside, joints);
+}
+
 // What is made of one skeleton and the parts that it moves.
 struct Made {
   RigWeights weights;
@@ -294,6 +306,7 @@ Made make_weights(const Command& options, const Model& model, Rig& rig, bool giv
   const Comparison found = compare(model, rig, poses, made.weights);
   const hf_weights_info info = weights.info();
   const hf_weights_statistics work = weights.statistics();
+  if (!options.skeleton.empty()) warn_of_misfit(work.outside_count, rig.joint_count());
   if (options.table) {
     std::printf("%-26s %6u %4zu %7.3f %7.3f %6.3f %4u %5u %5u %7.1f %7.1f\n", name.c_str(), info.vertex_count,
                 rig.joint_count(), found.mean, found.high, found.stretch, found.bare,
@@ -335,7 +348,7 @@ Made make_weights(const Command& options, const Model& model, Rig& rig, bool giv
     } else {
       std::snprintf(title, sizeof title, "%s: a skeleton taken from another model", name.c_str());
     }
-    write_weight_sheet(sheet.string(), model, rig, poses, made.weights, found, title);
+    write_weight_sheet(sheet.string(), model, rig, poses, made.weights, found, given, title);
   }
   return made;
 }

@@ -102,6 +102,11 @@ const char* name_of(FileKind kind) {
 
 bool is_model(FileKind kind) { return kind == FileKind::gltf || reads_foreign(kind); }
 
+std::string model_endings(const std::string& word) {
+  return reads_foreign(FileKind::fbx) ? ".gltf, .glb, .vrm, .fbx, .dae " + word + " .bvh"
+                                      : ".gltf, .glb " + word + " .vrm";
+}
+
 std::string advice_on(FileKind kind) {
   const std::string by_blender = "open it in Blender (File > Import) and export it as glTF 2.0 (.glb)";
   switch (kind) {
@@ -122,7 +127,7 @@ std::string advice_on(FileKind kind) {
 
 std::string not_gltf(const std::string& name, FileKind kind) {
   const std::string advice = advice_on(kind);
-  return name + " is " + name_of(kind) + "; a glTF file is needed here (.glb, .gltf or .vrm)" +
+  return name + " is " + name_of(kind) + "; a model is needed here (" + model_endings("or") + ")" +
          (advice.empty() ? "" : ": " + advice);
 }
 

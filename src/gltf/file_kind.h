@@ -20,9 +20,11 @@ const char* name_of(FileKind kind);
 // Whether the file is a model with nodes, which read_gltf() reads: glTF, and FBX, COLLADA and BVH where this build has
 // assimp.
 bool is_model(FileKind kind);
+// The endings of models that this build reads: ".gltf, .glb and .vrm". word: "and" or "or".
+std::string model_endings(const std::string& word);
 // A clause for formats that this build does not read: how to get one that it reads. "" for the others.
 std::string advice_on(FileKind kind);
-// The message where `name` should be glTF and is not: "a.obj is OBJ; a glTF file is needed here ...".
+// The message where `name` should be a model and is not: "a.obj is OBJ; a model is needed here ...".
 std::string not_gltf(const std::string& name, FileKind kind);
 
 }  // namespace hf_gltf

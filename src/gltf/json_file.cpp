@@ -12,6 +12,21 @@
 namespace hf_gltf {
 using nlohmann::json;
 
+std::string as_utf8(const std::string& text) {
+  try {
+    (void)json(text).dump();
+    return text;
+  } catch (const json::exception&) {
+  }
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80) out += static_cast<char>(0xC0 | (byte >> 6));
+    out += byte >= 0x80 ? static_cast<char>(0x80 | (byte & 0x3F)) : c;
+  }
+  return out;
+}
+
 std::string scan_json(const char* text, size_t size, size_t max_depth, size_t max_values) {
   size_t depth = 0, values = 0;
   bool in_string = false;

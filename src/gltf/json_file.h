@@ -14,6 +14,9 @@
 
 namespace hf_gltf {
 
+// Text as JSON holds it. Bytes that are not UTF-8 are read as Latin-1, as older programs write names.
+std::string as_utf8(const std::string& text);
+
 // One place in a JSON file. Cheap to copy; the root JsonFile must outlive it.
 class JsonReader {
  public:

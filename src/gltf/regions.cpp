@@ -67,7 +67,8 @@ Selector read_selector(const JsonReader& json) {
     out.extreme = json.at("extreme").string();
     const std::vector<std::string> words = {"up", "down", "forward", "back", "left", "right", "away"};
     if (std::find(words.begin(), words.end(), out.extreme) == words.end())
-      json.at("extreme").fail("expected one of " + listed(words, 7) + ", found \"" + out.extreme + "\"");
+      json.at("extreme").fail("expected one of " + listed(words, 7) +
+                              " (left and right of one who looks at its face), found \"" + out.extreme + "\"");
     if (out.joints.empty()) json.fail("\"extreme\" needs \"joint\" or \"joints\": the vertices among which to look");
   }
   if (json.has("position")) {

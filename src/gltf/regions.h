@@ -17,7 +17,7 @@
 
 namespace hf_gltf {
 
-// The rows right, up and forward.
+// The rows right, up and forward. A viewer who looks at the face has it on the right, so the left hand lies there.
 struct Axes {
   glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
 };

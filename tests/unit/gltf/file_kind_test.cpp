@@ -81,13 +81,17 @@ TEST(FileKinds, WhatShouldBeGltfAndIsNotIsNamed) {
   const auto gltf = [](const std::string& text, const char* name) {
     return message_of([&] { read_gltf_bytes({text.begin(), text.end()}, name); });
   };
-  EXPECT_EQ(gltf("v 0 0 0\nv 1 0 0\n", "a.obj"), "a.obj is OBJ; a glTF file is needed here (.glb, .gltf or .vrm)");
+  EXPECT_EQ(gltf("v 0 0 0\nv 1 0 0\n", "a.obj"), "a.obj is OBJ; a model is needed here (" + model_endings("or") + ")");
   const std::string by_blender = "open it in Blender (File > Import) and export it as glTF 2.0 (.glb)";
   EXPECT_EQ(gltf("#usda 1.0\n", "a.usda"),
-            "a.usda is USD; a glTF file is needed here (.glb, .gltf or .vrm): " + by_blender);
+            "a.usda is USD; a model is needed here (" + model_endings("or") + "): " + by_blender);
   EXPECT_EQ(message_of([] { read("BLENDER", ".blend"); }),
-            "a.blend is a Blender file, which is not read; .obj, .off, .ply, .stl, .gltf, .glb and .vrm are: export it "
-            "from Blender as glTF 2.0 (.glb)");
+            "a.blend is a Blender file, which is not read; .obj, .off, .ply, .stl, " + model_endings("and") +
+                " are: export it from Blender as glTF 2.0 (.glb)");
+  EXPECT_EQ(message_of([] { read("what is this", ".xyz"); }),
+            "a.xyz is of no known format; .obj, .off, .ply, .stl, " + model_endings("and") + " are read");
+  EXPECT_EQ(model_endings("and"),
+            reads_foreign(FileKind::fbx) ? ".gltf, .glb, .vrm, .fbx, .dae and .bvh" : ".gltf, .glb and .vrm");
   // FBX, COLLADA and BVH are models where the build has assimp
   for (const FileKind kind : {FileKind::fbx, FileKind::dae, FileKind::bvh})
     EXPECT_EQ(is_model(kind), reads_foreign(kind));
@@ -98,7 +102,7 @@ TEST(FileKinds, WhatShouldBeGltfAndIsNotIsNamed) {
     EXPECT_EQ(said.find("a.fbx: is not accepted by assimp: "), 0u) << said;
   else
     EXPECT_EQ(said,
-              "a.fbx is FBX; a glTF file is needed here (.glb, .gltf or .vrm): this build has no reader of FBX; build "
+              "a.fbx is FBX; a model is needed here (.gltf, .glb or .vrm): this build has no reader of FBX; build "
               "with HF_WITH_ASSIMP=ON (Debian: libassimp-dev), or " +
                   by_blender);
   EXPECT_NE(said.find(by_blender), std::string::npos);

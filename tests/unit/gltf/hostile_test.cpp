@@ -247,6 +247,12 @@ TEST(Hostile, DamagedMeshFilesAreReadOrRefused) {
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5}};
   mesh.triangles = {0, 1, 2, 0, 2, 3};
   mesh.colors.assign(4, glm::vec4(0.5f, 0.25f, 1, 1));
+  mesh.corners.texcoords = {{0, 0}, {1, 0.5}};
+  mesh.corners.texcoord_of = {0, 1, 1, 1, 0, 0};
+  mesh.corners.normals = {{0, 0, 1}, {0, 1, 0}};
+  mesh.corners.normal_of = {0, 0, 0, 1, 1, 1};
+  mesh.corners.material_names = {"a", "b"};
+  mesh.corners.material_of = {0, 1};
   TemporaryFolder folder;
   std::mt19937 random(17);
   size_t read = 0, refused = 0;
@@ -265,6 +271,7 @@ TEST(Hostile, DamagedMeshFilesAreReadOrRefused) {
       const int outcome = outcome_of([&] {
         const FlatMesh flat = to_flat_mesh(read_mesh_bytes(bad, extension, "bad"));
         welded_normals(flat, flat.positions);
+        gltf_bytes(to_model(read_mesh_bytes(bad, extension, "bad", {}, true), "bad"), true);
       });
       ASSERT_LE(outcome, 1);
       ++(outcome == 0 ? read : refused);

@@ -6,6 +6,8 @@
 
 #include "common/mesh_file.h"
 #include "gltf/file_bytes.h"
+#include "gltf/flat_mesh.h"
+#include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
 #include "support/program_support.h"
 #include "unit/gltf/gltf_support.h"
@@ -54,11 +56,11 @@ TEST_F(ConvertProgram, SaysWhatAFormatKeepsAndLoses) {
   write_obj();
   ASSERT_EQ(convert("a.obj", "a.ply"), 0);
   expect_said("a.ply: kept 6 vertices, 3 faces, 1 polygon, ");
-  expect_said("lost 2 groups, texture coordinates, materials\n");
+  expect_said("lost 2 groups, 1 texture coordinate, 1 material\n");
   ASSERT_EQ(convert("a.obj", "a.stl"), 0);
   expect_said(
-      "lost 6 vertices (only their corners stay), 1 polygon (cut into triangles), 2 groups, 1 isolated vertex, digits "
-      "of positions beyond float");
+      "lost 6 vertices (only their corners stay), 1 polygon (cut into triangles), 2 groups, 1 texture coordinate, 1 "
+      "material, 1 isolated vertex, digits of positions beyond float");
   ASSERT_EQ(convert("a.ply", "b.ply"), 0);
   expect_said("lost nothing");
   std::ofstream(path("c.ply")) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -135,7 +137,123 @@ TEST_F(ConvertProgram, NamesImagesAndNormalsOfCorners) {
   expect_said("1 image");
   std::ofstream(path("n.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n";
   ASSERT_EQ(convert("n.obj", "n.glb"), 0) << said_;
-  expect_said("lost normals of corners");
+  expect_said("3 normals; lost nothing");
+}
+
+// A roof of two faces that meet at an edge: its vertices have two normals and two texture coordinates.
+const char roof[] =
+    "v 0 0 0\nv 0 0 1\nv -1 -1 0\nv 1 -1 0\nvt 0 0\nvt 1 0\nvt 0 0.25\nvt 0 0\nvn -1 1 0\nvn 1 1 0\n"
+    "f 1/1/1 3/2/1 2/3/1\nf 2/2/2 4/1/2 1/3/2\n";
+
+TEST_F(ConvertProgram, CornersOfAnObjBecomeVerticesOfTheirOwnInGltf) {
+  std::ofstream(path("a.obj")) << roof;
+  ASSERT_EQ(convert("a.obj", "a.glb"), 0) << said_;
+  expect_said("2 normals of corners, 4 texture coordinates; lost nothing");
+  const Model model = read_gltf(path("a.glb"));
+  const Primitive& part = model.meshes[0].primitives[0];
+  ASSERT_EQ(part.positions.size(), 6u) << "four vertices, and copies of two behind them";
+  ASSERT_EQ(part.texcoords.size(), 1u);
+  EXPECT_EQ(part.indices, (std::vector<uint32_t>{0, 2, 1, 4, 3, 5}));
+  EXPECT_EQ(part.texcoords[0][1], glm::vec2(0, 0.75f)) << "glTF counts down";
+  EXPECT_EQ(part.texcoords[0][4], glm::vec2(1, 1));
+  EXPECT_GT(part.normals[4].x, 0.7f);
+  EXPECT_LT(part.normals[1].x, -0.7f);
+  const FlatMesh flat = flatten(model);
+  EXPECT_EQ(flat.welded_count, 4u) << "the surface stays one";
+  EXPECT_EQ(read_mesh_file(path("a.obj")).positions.size(), 4u) << "other programs number the vertices of the file";
+  // back, and once more the same
+  ASSERT_EQ(convert("a.obj", "b.obj"), 0) << said_;
+  expect_said("lost nothing");
+  const std::vector<uint8_t> bytes = read_bytes(path("b.obj"), 1 << 20);
+  EXPECT_EQ(std::string(bytes.begin(), bytes.end()), roof);
+  ASSERT_EQ(convert("a.glb", "c.obj"), 0) << said_;
+  expect_said("6 normals, 1 set of texture coordinates; lost 1 node\n");
+  ASSERT_EQ(convert("c.obj", "c.glb"), 0) << said_;
+  const Model back = read_gltf(path("c.glb"));
+  EXPECT_EQ(back.meshes[0].primitives[0].texcoords, part.texcoords);
+  EXPECT_EQ(back.meshes[0].primitives[0].normals, part.normals);
+}
+
+TEST_F(ConvertProgram, AQuadKeepsTheTextureCoordinatesOfItsCorners) {
+  std::ofstream(path("a.obj")) << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt nan 1\n"
+                                  "f 1/1 2/2 3/3 4/4\nf 4 3 2\n";
+  ASSERT_EQ(convert("a.obj", "a.glb"), 0) << said_;
+  expect_said("warning: 1 corners have a texture coordinate or normal that is zero or not finite");
+  const Model model = read_gltf(path("a.glb"));
+  const Primitive& part = model.meshes[0].primitives[0];
+  ASSERT_EQ(part.indices.size(), 9u);
+  ASSERT_EQ(part.texcoords.size(), 1u);
+  for (size_t i = 0; i < 6; ++i) {
+    const uint32_t v = part.indices[i];
+    const glm::vec3& p = part.positions[v];
+    if (v == 3) continue;
+    EXPECT_EQ(part.texcoords[0][v], glm::vec2(p.x, 1 - p.y));
+  }
+}
+
+TEST_F(ConvertProgram, MaterialsOfAnObjCarryTheirColourAndImage) {
+  const std::string pixel =
+      "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+  std::vector<uint8_t> image;
+  std::string type;
+  ASSERT_TRUE(decode_data_uri("data:image/png;base64," + pixel, image, type));
+  std::ofstream(path("skin of a cat.png"), std::ios::binary)
+      .write(reinterpret_cast<const char*>(image.data()), static_cast<std::streamsize>(image.size()));
+  std::ofstream(path("a.mtl")) << "newmtl red\nKd 1 0.25 0\nd 0.5\nPr 0.75\nnewmtl cat\nKd 0 0 0\n"
+                                  "map_Kd skin of a cat.png\nnewmtl other\nmap_Kd ../out.png\n";
+  std::ofstream(path("a.obj")) << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nvt 0 0\n"
+                                  "usemtl cat\nf 1/1 2/1 3/1\nusemtl red\nf 1 3 4\nusemtl cat\nf 4/1 3/1 2/1\n";
+  const auto expect_looks = [](const Model& model) {
+    ASSERT_EQ(model.materials.size(), 2u);
+    EXPECT_EQ(model.materials[0].name, "cat");
+    EXPECT_EQ(model.materials[0].base_color, glm::vec4(1)) << "the image has the colour";
+    EXPECT_EQ(model.materials[1].base_color, glm::vec4(1, 0.25f, 0, 0.5f));
+    EXPECT_EQ(model.materials[1].roughness, 0.75f);
+    EXPECT_EQ(model.materials[1].metallic, 0);
+    const std::vector<Primitive>& parts = model.meshes[0].primitives;
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_EQ(parts[0].material, 0);
+    EXPECT_EQ(parts[0].indices.size(), 6u);
+    EXPECT_EQ(parts[1].material, 1);
+    EXPECT_EQ(image_count(model), 1u);
+  };
+  ASSERT_EQ(convert("a.obj", "a.glb"), 0) << said_;
+  expect_said("2 materials, 1 isolated vertex, 1 image; lost nothing");
+  expect_looks(read_gltf(path("a.glb")));
+  ASSERT_EQ(convert("a.glb", "b.obj"), 0) << said_;
+  expect_said("2 materials, 1 image, ");
+  EXPECT_EQ(read_bytes(path("b_0.png"), 1 << 20), image);
+  ASSERT_EQ(convert("b.obj", "b.glb"), 0) << said_;
+  expect_looks(read_gltf(path("b.glb")));
+  // names in files lead nowhere else, and what is not there is said
+  std::ofstream(path("a.mtl")) << "newmtl cat\nmap_Kd ../out.png\n";
+  ASSERT_EQ(convert("a.obj", "c.glb"), 0) << said_;
+  expect_said("warning: the image ../out.png is not read: ");
+  expect_said("warning: materials that no .mtl file describes: 1");
+}
+
+// JSON holds no byte of Latin-1.
+TEST_F(ConvertProgram, NamesOfMaterialsInLatin1AreRead) {
+  std::ofstream(path("a.mtl")) << "newmtl m\xfc\nKd 0.5 0 0\n";
+  std::ofstream(path("a.obj")) << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\xfc\nf 1 2 3\n";
+  ASSERT_EQ(convert("a.obj", "a.glb"), 0) << said_;
+  const Model model = read_gltf(path("a.glb"));
+  ASSERT_EQ(model.materials.size(), 1u);
+  EXPECT_EQ(model.materials[0].name, "m\xc3\xbc");
+  EXPECT_EQ(model.materials[0].base_color.r, 0.5f);
+}
+
+// It wrote a .glb of 132 bytes and said that nothing was lost.
+TEST_F(ConvertProgram, RefusesAFileWithoutASurface) {
+  for (const char* text : {"", "# nothing\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nf 1 1\n"}) {
+    std::ofstream(path("a.obj")) << text;
+    EXPECT_EQ(convert("a.obj", "a.glb"), 1) << text;
+    expect_said(text[0] == 'v' ? "a.obj has no face, so" : "a.obj has no vertex, so");
+    EXPECT_FALSE(fs::exists(path("a.glb")));
+  }
+  std::ofstream(path("points.off")) << "OFF\n1 0 0\n1 2 3\n";
+  EXPECT_EQ(convert("points.off", "points.ply"), 0) << "a cloud of points stays one";
+  EXPECT_EQ(convert("points.off", "points.stl"), 1);
 }
 
 TEST_F(ConvertProgram, AnAvatarStaysOneAndNothingElseBecomesOne) {

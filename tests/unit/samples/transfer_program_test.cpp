@@ -257,6 +257,7 @@ TEST(TransferProgram, WhatIsWrongIsNamedWithFileAndKeyPath) {
   refused(pair("{\"joint\": 7}"), "pairs[0].both.joint");
   refused(pair("{\"joint\": \"antler\"}"), "no joint \"antler\"");
   refused(pair("{\"joint\": \"head\", \"extreme\": \"sideways\"}"), "pairs[0].both.extreme");
+  refused(pair("{\"joint\": \"head\", \"extreme\": \"sideways\"}"), "left and right of one who looks at its face");
   refused(pair("{\"joint\": \"head\", \"radius\": 9}"), "pairs[0].both.radius");
   refused(pair("{\"position\": [0, 1]}"), "pairs[0].both.position");
   refused(pair("{\"vertices\": [4000000]}"), "no vertex 4000000");

@@ -197,6 +197,40 @@ TEST(WeightsProgram, CarriesMirrorsAndTakesSkeletons) {
   EXPECT_NE(text.find("--mirror"), std::string::npos) << text;
 }
 
+uint32_t width_of_png(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  uint8_t head[24] = {};
+  in.read(reinterpret_cast<char*>(head), sizeof head);
+  return static_cast<uint32_t>(head[18] << 8 | head[19]);
+}
+
+// The joints of a straight body lay beside an arched one, and only a count of bones said so. The sheet had empty
+// columns.
+TEST(WeightsProgram, WarnsOfASkeletonThatDoesNotFit) {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return "\"" + (folder.path / name).string() + "\""; };
+  const Model body = bent();
+  write_gltf(body, folder.path / "in.glb");
+  const std::vector<uint32_t>& triangles = body.meshes[0].primitives[0].indices;
+  std::vector<glm::dvec3> straight, arched;
+  for (const glm::vec3& p : body.meshes[0].primitives[0].positions) {
+    straight.push_back(glm::dvec3(p));
+    arched.push_back({p.x, static_cast<double>(p.y) + 0.2 * std::pow(static_cast<double>(p.x) - 10, 2), p.z});
+  }
+  write_gltf(make_model("straight", straight, triangles), folder.path / "straight.glb");
+  write_gltf(make_model("arched", arched, triangles), folder.path / "arched.glb");
+  std::string text;
+  ASSERT_EQ(run(path("straight.glb") + " --skeleton " + path("in.glb"), text), 0) << text;
+  EXPECT_EQ(text.find("warning"), std::string::npos) << text;
+  ASSERT_EQ(run(path("arched.glb") + " --skeleton " + path("in.glb") + " --sheet " + path("own.png"), text), 0) << text;
+  EXPECT_NE(text.find("of 2 joints lie outside the mesh, so the skeleton does not fit this body; give --pairs"),
+            std::string::npos)
+      << text;
+  ASSERT_EQ(run(path("in.glb") + " --sheet " + path("in.png"), text), 0) << text;
+  EXPECT_LT(3 * width_of_png(folder.path / "own.png"), 2 * width_of_png(folder.path / "in.png") + 300)
+      << "two columns, not three";
+}
+
 // A node below the last joint says where it ends. Without it, the joint ends 1.5 times as far as its parent is long.
 TEST(WeightsProgram, ReadsWhereJointsEnd) {
   const TemporaryFolder folder;
