@@ -582,6 +582,25 @@ kept = list(quads.kept.values())
 assert kept and any(k.quads for k in kept)
 for handlers in HANDLERS:
     handlers[:] = [getattr(f, "inner", f) for f in handlers]
+# ---- a mesh of many pieces gets more quads than were asked for, and the line says why
+for leftover in list(bpy.data.objects):
+    bpy.data.objects.remove(leftover)
+many = ball("many", 4)
+for k in range(1, 12):
+    ball(f"piece {k}", 4, (3 * k, 0, 0)).select_set(True)
+for obj in bpy.data.objects:
+    obj.select_set(True)
+bpy.context.view_layer.objects.active = many
+bpy.ops.object.join()
+for asked, said in ((20, ", not 20, because the mesh has 12 pieces: a closed one needs six quads or more"), (2000, "")):
+    bpy.context.view_layer.objects.active = many
+    with contextlib.redirect_stdout(io.StringIO()):
+        assert bpy.ops.hf.quads(faces=asked) == {"FINISHED"}
+    made = bpy.context.active_object
+    line = quads.kept[made.hf_quads.key].line
+    assert len(made.data.polygons) >= 72 and line.startswith(f"{len(made.data.polygons)} quads{said}"), line
+    assert said or line == f"{len(made.data.polygons)} quads", line
+
 blender_addon.disable()
 assert not quads.kept and not any(k.quads for k in kept)
 assert not raised, raised[0]

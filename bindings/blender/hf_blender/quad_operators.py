@@ -74,7 +74,7 @@ class HF_OT_quads(bpy.types.Operator):
             other.select_set(False)
         made.select_set(True)
         context.view_layer.objects.active = made
-        self.report({"INFO"}, f"{made.name}: {len(made.data.polygons)} quads")
+        self.report({"INFO"}, f"{made.name}: {quads.kept[made.hf_quads.key].line}")
 
 
 def quads_made(context):

@@ -32,6 +32,10 @@ POLL = 0.05
 # One thread relaxes, so that the user can go on dragging.
 WORKER = ThreadPoolExecutor(1, "hf quads")
 
+# More quads than so many times those asked for have a reason that is said. A mannequin of 60 pieces gets 3 % more than 600, and
+# 1.8 times as many as 300. At half of the excess or double the same are said.
+SAID_FROM = 1.3
+
 
 class Kept:
     """What is kept of quads while Blender runs."""
@@ -165,6 +169,17 @@ def write(made, mesh, digest, relaxed, source):
     made.data[SHOWN], made.data[RELAXED], made.data[WRITTEN] = digest, relaxed, content_of(made.data)
 
 
+def line_of(made, asked, found):
+    """How many quads there are, and why so many more than asked for. found: the session of their mesh, or None."""
+    count = len(made.data.polygons)
+    if found is None or count <= SAID_FROM * asked:
+        return f"{count} quads"
+    if found.piece_count > 1:
+        return (f"{count} quads, not {asked}, because the mesh has {found.piece_count} pieces: a closed one needs six quads or more, "
+            "and a thin one more to keep its form")
+    return f"{count} quads, not {asked}, because fewer do not keep to the form of the mesh"
+
+
 def create(source, curves, poles, window_manager, graph, faces, crease, sharp, symmetry):
     """A new object of quads, which follows from here on."""
     global known
@@ -183,7 +198,7 @@ def create(source, curves, poles, window_manager, graph, faces, crease, sharp, s
     state = kept[group.key] = Kept()
     state.quads, state.surface = quads, found.surface
     state.members = names_of(*members_of(bpy.context.scene, group.key))
-    state.line = f"{len(made.data.polygons)} quads"
+    state.line = line_of(made, faces, found)
     return made
 
 
@@ -274,7 +289,8 @@ def done(made, state, relaxed, begin, middle):
     now = time.perf_counter()
     state.figures = {"library_ms": 1e3 * (middle - begin), "total_ms": 1e3 * (now - begin)}
     ms = state.figures["total_ms"]
-    state.line = f"{len(made.data.polygons)} quads, " + (f"relaxed in {ms / 1000:.1f} s" if relaxed else f"followed in {ms:.0f} ms")
+    line = line_of(made, made.hf_quads.faces, session.session_of(made.hf_quads.source, bind=False))
+    state.line = f"{line}, " + (f"relaxed in {ms / 1000:.1f} s" if relaxed else f"followed in {ms:.0f} ms")
     redraw()
 
 

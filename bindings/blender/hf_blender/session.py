@@ -97,7 +97,8 @@ class Session:
         self.editing = False  # the mesh is or was in Edit Mode or undone, and has not been looked at since
         self.repainted = False  # a stroke or an undo may have changed what is painted, which has not been read since
         self.surface = surface_of(mesh, self.rest, old, window_manager, meanwhile)
-        self.light = self.surface.pieces()[1]
+        pieces, self.light = self.surface.pieces()
+        self.piece_count = len(np.unique(pieces[mesh_data.on_surface(mesh)]))
         self.info = hf.DeformInfo()
         self.remarks = []  # sentences for the panel
         self.stiffness = np.ones(len(self.rest))  # by vertex, of the surface
