@@ -100,8 +100,7 @@ hf_result hf_surface_trace_cut(hf_surface surface, const hf_cut_desc* given, hf_
       fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a surface of polygons cannot be cut; make the surface of triangles");
     const mesh::CutOptions options = mesh::read_cut_options(desc);
     with_progress(desc.progress, [&] {
-      const Vector<mesh::CurvePoint> points =
-          mesh::read_cut_points(desc, shape.mesh, shape.topology(), shape.nearest_for(desc.points), *shape.memory);
+      const Vector<mesh::CurvePoint> points = mesh::read_cut_points(desc, shape.mesh, shape.topology(), *shape.memory);
       write_cut(shape.mesh, mesh::trace_cut(shape.mesh, shape.topology(), points, options, *shape.memory), inout_cut);
     });
   });

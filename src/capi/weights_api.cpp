@@ -65,7 +65,7 @@ hf_result hf_weights_set_pins(hf_weights handle, const hf_pins_desc* given) {
   return change("hf_weights_set_pins", handle, [&](WeightsObject& object) {
     const hf_pins_desc desc = read_struct(given, "pins");
     weights::Pins pins(*object.memory);
-    weights::read_pins(desc, *object.weights.surface().core, joint_count(object), pins);
+    weights::read_pins(desc, object.weights.surface().core->mesh, joint_count(object), pins, *object.memory);
     with_progress(desc.progress, [&] { object.weights.set_pins(pins); });
   });
 }

@@ -189,7 +189,7 @@ void regions_near(const surface::Core& core, const mesh::Places& places, const d
   start.push_back(0);
   mesh::Places surface = places;
   surface.points = nullptr;  // of points, vertices count and not triangles
-  const mesh::PlaceReader reader(core.mesh, surface, nullptr);
+  const mesh::PlaceReader reader(core.mesh, surface, *core.memory);
   RegionSearch search(core);
   for (std::uint32_t r = 0; r < places.count; ++r) {
     const RegionCentre centre = centre_of(core, places, reader, r);

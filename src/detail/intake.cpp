@@ -41,7 +41,7 @@ void read_curve(const surface::Core& core, const hf_curve_desc& curve, RegionEdi
          curve.point_count);
   mesh::check_vertex_count(mesh, curve.point_count, "point_count");
   edit.kind = static_cast<CurveKind>(curve.kind);
-  const mesh::PlaceReader reader(mesh, places, core.geometry->nearest_for(places.points));
+  const mesh::PlaceReader reader(mesh, places, *core.memory);
   for (std::uint32_t i = 0; i < curve.point_count; ++i) {
     const mesh::SurfacePlace place = reader.read(i);
     mesh::CurvePoint point;

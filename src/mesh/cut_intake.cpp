@@ -30,13 +30,13 @@ CutOptions read_cut_options(const hf_cut_desc& desc) {
 }
 
 Vector<CurvePoint> read_cut_points(const hf_cut_desc& desc, const Mesh& mesh, const Topology& topology,
-                                   const NearestTriangle* nearest, Memory& memory) {
+                                   Memory& memory) {
   if (desc.point_count < 2)
     fail(HF_ERROR_EMPTY, desc.point_count, "point_count is %u; a line takes at least 2 points", desc.point_count);
   if (desc.point_count > most_crossings)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "point_count is %u; at most %u are taken", desc.point_count, most_crossings);
   const Places places(desc.point_count, desc.vertices, desc.places, desc.points);
-  const PlaceReader reader(mesh, places, nearest);
+  const PlaceReader reader(mesh, places, memory);
   Vector<CurvePoint> points(&memory);
   Poller poller;
   for (std::uint32_t i = 0; i < desc.point_count; ++i) {

@@ -10,7 +10,6 @@ namespace hf_inner::mesh {
 CutOptions read_cut_options(const hf_cut_desc& desc);
 
 // Returns the points of the line. Throws as hf_surface_trace_cut documents.
-Vector<CurvePoint> read_cut_points(const hf_cut_desc& desc, const Mesh& mesh, const Topology& topology,
-                                   const NearestTriangle* nearest, Memory& memory);
+Vector<CurvePoint> read_cut_points(const hf_cut_desc& desc, const Mesh& mesh, const Topology& topology, Memory& memory);
 
 }  // namespace hf_inner::mesh

@@ -1,6 +1,8 @@
 // Reads the places that a caller names: vertices, places between corners, or points in space. Sites, pins, curves,
 // handles and paths read theirs here, so each refuses the same places in the same words.
 #pragma once
+#include <optional>
+
 #include "mesh/nearest_triangle.h"
 #include "mesh/places.h"
 
@@ -24,18 +26,19 @@ SurfacePlace read_place(const Mesh& mesh, const hf_place& given, std::size_t pos
 
 class PlaceReader {
  public:
-  // nearest: of the triangles of the mesh, for points in space; null for other places, and on a graph. All arguments
-  // must outlive this object.
-  PlaceReader(const Mesh& mesh, const Places& given, const NearestTriangle* nearest)
-      : mesh_(mesh), given_(given), nearest_(nearest) {}
+  // Both arguments must outlive this object. Cost of points: a tree of boxes for many, O(n log n). For a few, each is
+  // compared with the boxes of all triangles, and nothing is allocated.
+  PlaceReader(const Mesh& mesh, const Places& given, Memory& memory);
   // Reads place i. A point in space becomes the nearest point of the surface. Throws as usable_vertex, read_place and
   // read_point_near do, index = i.
   SurfacePlace read(std::uint32_t i) const;
 
  private:
+  Index nearest(const Vec3& p) const noexcept;
+
   const Mesh& mesh_;
   const Places& given_;
-  const NearestTriangle* nearest_;
+  std::optional<NearestTriangle> tree_;  // for many points
 };
 
 }  // namespace hf_inner::mesh

@@ -196,7 +196,7 @@ void SiteSet::move(const surface::Core& core, std::uint32_t count, const std::ui
     slots_[sites[i]].given_vertex = HF_NO_INDEX - 1;  // the site has left its place and not arrived
   }
   Vector<double> values(at(channels_), core.memory.get());
-  const mesh::PlaceReader reader(core.mesh, to, core.geometry->nearest_for(to.points));
+  const mesh::PlaceReader reader(core.mesh, to, *core.memory);
   for (std::uint32_t i = 0; i < count; ++i) {
     const Slot slot = slots_[sites[i]];
     if (slot.given_vertex != HF_NO_INDEX - 1)
@@ -273,7 +273,7 @@ void SiteSet::add(const surface::Core& core, const mesh::Places& places, const H
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites and %u more; the site_limit is %u", count_ + hidden_, places.count,
          limit);
   out_sites.reserve(places.count);
-  const mesh::PlaceReader reader(core.mesh, places, core.geometry->nearest_for(places.points));
+  const mesh::PlaceReader reader(core.mesh, places, *core.memory);
   for (std::uint32_t i = 0; i < places.count; ++i) {
     Arrival arrival;
     arrival.position = i;

@@ -89,17 +89,6 @@ const mesh::MeshReport& Geometry::mesh_report() const {
   return report_;
 }
 
-const mesh::NearestTriangle* Geometry::nearest_for(const double* points) const {
-  if (plain) return plain->nearest_for(points);
-  if (!points || mesh.is_graph()) return nullptr;
-  if (!nearest_made_.load(std::memory_order_acquire)) {
-    const std::lock_guard<std::mutex> lock(edges_guard_);
-    if (!nearest_) nearest_.emplace(mesh.positions, mesh.corners, *memory);
-    nearest_made_.store(true, std::memory_order_release);
-  }
-  return &*nearest_;
-}
-
 std::shared_ptr<const Geometry> Geometry::make(const mesh::MeshInput& input, mesh::OperatorKind operator_kind,
                                                std::shared_ptr<Memory> memory, std::shared_ptr<JobRunner> jobs) {
   Memory& pool = *memory;

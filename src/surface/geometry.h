@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "base/jobs.h"
 #include "base/memory.h"
@@ -19,7 +18,6 @@
 #include "mesh/links.h"
 #include "mesh/mesh.h"
 #include "mesh/mesh_patch.h"
-#include "mesh/nearest_triangle.h"
 #include "mesh/topology.h"
 #include "surface/workspaces.h"
 
@@ -68,9 +66,6 @@ struct Geometry {
   const mesh::Topology* known_topology() const noexcept {
     return edges_made_.load(std::memory_order_acquire) ? &edges_.topology : nullptr;
   }
-  // A tree of boxes over the triangles, made when a caller first names points in space. Null without points, and on a
-  // graph. Thread safety: any thread.
-  const mesh::NearestTriangle* nearest_for(const double* points) const;
   // The report of the mesh; the counts of a patched mesh are made when a caller first asks. Thread safety: any thread.
   const mesh::MeshReport& mesh_report() const;
 
@@ -100,9 +95,8 @@ struct Geometry {
 
   mutable Edges edges_;
   mutable std::mutex edges_guard_;
-  mutable std::atomic<bool> edges_made_{false}, report_made_{false}, nearest_made_{false};
+  mutable std::atomic<bool> edges_made_{false}, report_made_{false};
   mutable mesh::MeshReport report_;
-  mutable std::optional<mesh::NearestTriangle> nearest_;
 };
 
 }  // namespace hf_inner::surface

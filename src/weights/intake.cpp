@@ -134,8 +134,7 @@ Vector<Index> read_sources(const hf_joints_desc& desc, std::uint32_t before, Mem
   return sources;
 }
 
-void read_pins(const hf_pins_desc& desc, const surface::Core& core, std::uint32_t bones, Pins& pins) {
-  const mesh::Mesh& mesh = core.mesh;
+void read_pins(const hf_pins_desc& desc, const mesh::Mesh& mesh, std::uint32_t bones, Pins& pins, Memory& memory) {
   require_zero(desc.reserved);
   if (desc.pin_count == 0) return;
   const mesh::Places places(desc.pin_count, desc.vertices, desc.places, desc.points);
@@ -147,7 +146,7 @@ void read_pins(const hf_pins_desc& desc, const surface::Core& core, std::uint32_
   if (desc.pin_count > mesh.report.vertex_count)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pin_count is %u; the mesh has %u vertices", desc.pin_count,
          mesh.report.vertex_count);
-  const mesh::PlaceReader reader(mesh, places, core.geometry->nearest_for(places.points));
+  const mesh::PlaceReader reader(mesh, places, memory);
   for (std::uint32_t i = 0; i < desc.pin_count; ++i) {
     pins.places.push_back(pin_site(mesh, reader.read(i)));
     const double radius = desc.radii ? desc.radii[i] : 0.0;

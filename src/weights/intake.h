@@ -20,7 +20,7 @@ void read_first_bones(const hf_joints_desc& desc, Bones& bones, Memory& memory);
 Vector<Index> read_sources(const hf_joints_desc& desc, std::uint32_t before, Memory& memory);
 
 // Appends the pins to `pins`. bones: their count. Throws as hf_weights_set_pins says.
-void read_pins(const hf_pins_desc& desc, const surface::Core& core, std::uint32_t bones, Pins& pins);
+void read_pins(const hf_pins_desc& desc, const mesh::Mesh& mesh, std::uint32_t bones, Pins& pins, Memory& memory);
 
 // Locked bones and their weights [inner vertex][bones]; no weights: the present ones stay.
 struct LockInput {

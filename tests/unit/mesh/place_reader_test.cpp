@@ -29,7 +29,7 @@ TEST(PlaceReader, no_triangle_is_nearer_than_the_place_of_a_point) {
       points.insert(points.end(), {p.x, p.y, p.z});
     }
     const Places given(200, nullptr, nullptr, points.data());
-    const PlaceReader reader(mesh, given, core->geometry->nearest_for(given.points));
+    const PlaceReader reader(mesh, given, *core->memory);
     for (std::uint32_t i = 0; i < 200; ++i) {
       const Vec3 p = mesh.to_inner({points[3 * i], points[3 * i + 1], points[3 * i + 2]});
       double least = 1e9;
@@ -43,6 +43,9 @@ TEST(PlaceReader, no_triangle_is_nearer_than_the_place_of_a_point) {
       for (const double w : place.weight) sum += w;
       EXPECT_NEAR(sum, 1, 1e-15);
       EXPECT_NEAR(norm(mesh.to_inner(position_of(mesh, place)) - p), std::sqrt(least), 1e-12) << i;
+      const Places one(1, nullptr, nullptr, points.data() + 3 * i);  // without a tree
+      const SurfacePlace alone = PlaceReader(mesh, one, *core->memory).read(0);
+      EXPECT_NEAR(norm(mesh.to_inner(position_of(mesh, alone)) - p), std::sqrt(least), 1e-12) << i;
     }
   }
 }
@@ -56,7 +59,7 @@ TEST(PlaceReader, the_position_of_a_vertex_is_the_vertex) {
     points.insert(points.end(), {p.x, p.y, p.z});
   }
   const Places given(static_cast<std::uint32_t>(mesh.vertex_count()), nullptr, nullptr, points.data());
-  const PlaceReader reader(mesh, given, core->geometry->nearest_for(given.points));
+  const PlaceReader reader(mesh, given, *core->memory);
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
     const SurfacePlace place = reader.read(static_cast<std::uint32_t>(v));
     EXPECT_TRUE(place.is_vertex());
