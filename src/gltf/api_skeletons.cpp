@@ -4,6 +4,7 @@
 
 #include "gltf/animate.h"
 #include "gltf/api_arguments.h"
+#include "gltf/clip_binding.h"
 #include "gltf/pose_numbers.h"
 
 namespace hf_gltf {
