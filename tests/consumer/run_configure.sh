@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What a plain configure asks for and what it would make; nothing is compiled.
-# usage: run_configure.sh bare|shared_only|static_only|add_subdirectory SOURCE_DIR BUILD_DIR
+# usage: run_configure.sh bare|shared_only|static_only|add_subdirectory|presets SOURCE_DIR BUILD_DIR
 set -eu
 kind=$1 source=$2 build=$3
 work="$build/consumer/$kind"
@@ -51,6 +51,13 @@ case "$kind" in
     # bytes_hash.cpp has -O2 in every build
     ninja -C "$work/typed" -t commands hf/src/libhf.so | grep -v bytes_hash.cpp | grep -q -- ' -O2 ' && { echo "-O2 stands beside the build type Debug"; exit 1; }
     true
+    ;;
+  presets)  # a preset without CMAKE_UNITY_BUILD takes other branches of the lists; the long form configures all of them
+    presets=(asan)
+    [ -n "${HF_FULL_TESTS:-}" ] && presets=(debug asan tsan coverage)
+    for preset in "${presets[@]}"; do
+      (cd "$source" && cmake --preset "$preset" -B "$work/$preset") >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+    done
     ;;
   *) echo "unknown kind $kind"; exit 1 ;;
 esac
