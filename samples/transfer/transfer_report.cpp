@@ -14,8 +14,8 @@ namespace samples {
 using namespace hf_gltf;
 namespace {
 
-// Less is not seen. Half is the rounding of soles on the ground.
-constexpr double told_depth = 0.005;
+// Less is not seen: the soles of a sound walk of samples/assets roll 0.6 % under the ground.
+constexpr double told_depth = 0.01;
 
 #if defined(__MINGW32__) && !defined(__clang__)  // its C++ library has the printf of GNU
 void print(std::string& out, const char* format, ...) __attribute__((format(gnu_printf, 2, 3)));

@@ -213,6 +213,15 @@ static void joints_give_their_clip_back(void** state) {
     bound += binds[16 * j + 15] != 0;
   }
   assert_int_equal(bound, 2);
+  for (uint32_t j = 0; j < info.joint_count; ++j) { /* bound as it rests: the inverse bind takes the places above back */
+    if (binds[16 * j + 15] == 0) continue;
+    for (int c = 0; c < 3; ++c) {
+      float place = 0;
+      for (uint32_t k = j; k != HF_NO_INDEX; k = parents[k]) place += rest[10 * k + c];
+      assert_true(fabsf(place + binds[16 * j + 12 + c]) < 1e-6F);
+      assert_true(binds[16 * j + 5 * c] == 1);
+    }
+  }
   uint16_t joints[8 * VERTICES];
   float weights[8 * VERTICES];
   hf_gltf_surface surface = HF_INIT(hf_gltf_surface);

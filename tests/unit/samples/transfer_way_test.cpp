@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include "assets/creature_rig.h"
@@ -276,6 +277,48 @@ TEST(TransferWay, AFishHasNoGround) {
   std::printf("lowest %.4f, in the dive %.4f\n", lowest(0), lowest(0.5));
   EXPECT_LT(lowest(0.5), lowest(0) - 0.05);
 }
+// In the second half of its clip the source sinks by a tenth of its box. The arms of the target have no partner.
+TEST(TransferWay, HowDeepTheSourceGoesAndWhatStaysIsTold) {
+  hf_gltf::Model sinking = biped();
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& p : hf_gltf::flatten(sinking).positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  for (hf_gltf::Channel& channel : sinking.animations[0].channels) {
+    if (channel.path != hf_gltf::Path::translation) continue;
+    for (size_t k = channel.times.size() / 2; k < channel.times.size(); ++k)
+      channel.values[3 * k + 1] -= static_cast<float>(0.1 * glm::length(high - low));
+  }
+  hf_gltf::Model bare = rigged("biped_tall");
+  std::set<std::string> still;
+  for (hf_gltf::Node& node : bare.nodes) {
+    if (has(node.name, "Arm") || has(node.name, "Hand") || has(node.name, "Shoulder")) {
+      node.name += "_ribbon";
+      still.insert(node.name);
+    }
+  }
+  const fs::path source = written(sinking, "sinking.glb"), target = written(bare, "still_arms.glb");
+  const fs::path report = folder() / "sinks.json";
+  std::string said;
+  ASSERT_EQ(transfer(quoted(source) + " " + quoted(target) + " --clip walk --fps 12 -o " +
+                         quoted(folder() / "sinks.glb") + " --json " + quoted(report),
+                     said),
+            0)
+      << said;
+  const json told = read_json(report);
+  // in boxes of the target, which is slimmer
+  EXPECT_NEAR(told["clips"][0]["source_depth"].get<double>(), 0.105, 0.01);
+  EXPECT_LT(told["clips"][0]["depth"].get<double>(), 0.005);
+  EXPECT_TRUE(has(said, "whose motion goes 10.")) << said;
+  EXPECT_EQ(told["staying"].get<std::set<std::string>>(), still);
+  EXPECT_TRUE(has(said, "of the target stay as they rest")) << said;
+
+  const json level = walked(target, "level_walk", "");
+  EXPECT_LT(level["clips"][0]["source_depth"].get<double>(), 0.01);
+  EXPECT_FALSE(has(level["said"], "whose motion goes")) << level["said"];
+}
+
 // A person on a machine with bird's legs floats when its legs point as the person's. With its feet on the scaled path
 // it stands. Another one hardly stands on that path, and keeps the way its legs point.
 TEST(TransferWay, OfTwoMotionsOfTheFeetTheBetterOneIsWritten) {
