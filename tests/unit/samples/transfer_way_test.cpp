@@ -292,7 +292,8 @@ TEST(TransferWay, HowDeepTheSourceGoesAndWhatStaysIsTold) {
   }
   hf_gltf::Model bare = rigged("biped_tall");
   std::set<std::string> still;
-  for (hf_gltf::Node& node : bare.nodes) {
+  for (const int joint : bare.skins[0].joints) {
+    hf_gltf::Node& node = bare.nodes[static_cast<size_t>(joint)];
     if (has(node.name, "Arm") || has(node.name, "Hand") || has(node.name, "Shoulder")) {
       node.name += "_ribbon";
       still.insert(node.name);
