@@ -40,9 +40,9 @@ HF_API hf_result hf_solver_clone(hf_solver solver, hf_solver* out_solver);
 /* Moves a solver to an edited surface. Its sites keep their numbers, values and screening. surface: any number of calls
  * of hf_surface_edit or hf_surface_relink make it from the solver's surface, or the solver's surface from it. Cost:
  * little where both share a factor, else the elimination paths of the sites; for screened fields a numeric
- * factorisation. Errors: HF_ERROR_CONFLICT (the surfaces have no common origin), HF_ERROR_UNSUPPORTED (a baseline),
- * HF_ERROR_CANCELLED (through the progress of hf_solver_desc). Thread safety: changes `solver`, reads `surface`. Since
- * 0.1. */
+ * factorisation. Errors: HF_ERROR_CONFLICT (the surfaces have no common origin, or a site lies at a vertex without a
+ * triangle on that surface; index = site), HF_ERROR_UNSUPPORTED (a baseline), HF_ERROR_CANCELLED (through the progress
+ * of hf_solver_desc). Thread safety: changes `solver`, reads `surface`. Since 0.1. */
 HF_API hf_result hf_solver_move_to(hf_solver solver, hf_surface surface);
 
 /* Destroys a solver. Ignores NULL and destroyed objects. Thread safety: a call under way on another thread ends first;

@@ -204,6 +204,9 @@ constexpr double weight_prune = 1e-3;
 // Largest gradient, per box diagonal. A larger one comes from a needle and not from the field. It is a guard: half and
 // double change no bit of twelve poses, of which the anchor has angles of 0.0007 degrees.
 constexpr double steepest_gradient = 1e9;
+// A smaller step of a field over a triangle is rounding, as on a linked piece behind a handle, where the field is
+// constant. Without this bound nearly all bands went there.
+constexpr double least_step = 1e-9;
 // Bins into which the values of a field are sorted, to space 10 to 64 bands: two for each of the most bands. More bins
 // follow the field more closely and hold fewer triangles each. Half changes elastic energies of the benchmark by at
 // most 0.13 % and edge stretches by at most 0.01; double changes only edge stretches of its planes, by 0.01.

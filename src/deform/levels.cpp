@@ -21,7 +21,7 @@ struct Histogram {
 
 // Adds the part of a triangle to the bins of its values. length: of the gradient.
 void add_gradient(double low, double high, double length, double area, Histogram& histogram) noexcept {
-  if (!(high > low) || !(length > 0) || !(length < steepest_gradient)) return;
+  if (!(high - low > least_step) || !(length < steepest_gradient)) return;
   const int first = std::min(static_cast<int>(low * Levels::bins), Levels::bins - 1);
   const int last = std::min(static_cast<int>(high * Levels::bins), Levels::bins - 1);
   const double squared = area * length * length, cubed = squared * length;
@@ -35,7 +35,7 @@ void add_gradient(double low, double high, double length, double area, Histogram
 // area), with the normal n.
 void add_triangle(const Rest::SampledTriangle& t, const double (&values)[3], Histogram& histogram) noexcept {
   const double low = std::min({values[0], values[1], values[2]}), high = std::max({values[0], values[1], values[2]});
-  if (!(high > low)) return;
+  if (!(high - low > least_step)) return;
   const Vec3 sum = values[0] * t.opposite[0] + values[1] * t.opposite[1] + values[2] * t.opposite[2];
   add_gradient(low, high, norm(sum) / t.twice_area, 0.5 * t.twice_area, histogram);
 }

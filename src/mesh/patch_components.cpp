@@ -24,6 +24,18 @@ void count_components(Mesh& mesh, Memory& memory) {
   }
 }
 
+// Whether the numbers follow the first of the caller's vertices: a component can lose it, or get one before it.
+bool is_in_order(const Mesh& mesh) noexcept {
+  Index next = 0;
+  const auto count = static_cast<Index>(mesh.report.component_count);
+  for (const Index v : mesh.inner_of_given) {
+    if (v == Mesh::none) continue;
+    if (mesh.component[at(v)] > next) return false;
+    if (mesh.component[at(v)] == next && ++next == count) return true;
+  }
+  return true;
+}
+
 }  // namespace
 
 void put_components(const Mesh& before, Span<const Index> fresh, PatchedMesh& out, Memory& memory) {
@@ -72,6 +84,10 @@ void put_components(const Mesh& before, Span<const Index> fresh, PatchedMesh& ou
     mesh.component.resize(mesh.positions.size());
   }
   for (const Index v : fresh) mesh.component[at(v)] = of_set[at(sets.find(local(v)))];
+  if (is_in_order(mesh)) return;
+  out.same_components = false;
+  mesh.component = SharedVector<Index>(memory);  // the numbers of `before` stay
+  count_components(mesh, memory);
 }
 
 }  // namespace hf_inner::mesh

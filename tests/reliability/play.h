@@ -33,6 +33,7 @@ class Bytes {
   Bytes(const std::uint8_t* bytes, std::size_t size) : next_(bytes), end_(bytes + size) {}
   bool done() const { return next_ == end_; }
   unsigned take() { return done() ? 0u : *next_++; }
+  unsigned peek() const { return done() ? 0u : *next_; }
 
  private:
   const std::uint8_t *next_, *end_;

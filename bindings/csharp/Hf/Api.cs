@@ -2744,10 +2744,10 @@ namespace Hf
         /// Surface.Components gives the new components. Light pieces and contacts stay as they are.
         ///
         /// After a patch the surface is the one that Surface makes of the triangles without the removed ones and
-        /// with the new ones, Weld.None for the new vertices. Vertices keep their stiffness, new ones have 1.
-        /// Distances, directions and quads make a factor of their own when they are first asked for, as on a new
-        /// surface. Patches over a quarter of the surface, and with Operator.Clamped, make the whole operator and
-        /// its factor anew. Take links out before, and put them in again after it.
+        /// with the new ones, Weld.None for the new vertices. Vertices keep their stiffness. New ones, and those
+        /// that were isolated, have 1. Distances, directions and quads make a factor of their own when they are
+        /// first asked for, as on a new surface. Patches over a quarter of the surface, and with Operator.Clamped,
+        /// make the whole operator and its factor anew. Take links out before, and put them in again after it.
         ///
         /// Solver.MoveTo takes sites along, and Pose.MoveTo takes handles along. After a patch or a cut make a new
         /// pose: Pose.MoveTo refuses other triangles. Soft sites keep the unit of their stiffness while links and

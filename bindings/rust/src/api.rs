@@ -1906,10 +1906,10 @@ impl Surface {
     /// gives the new components. Light pieces and contacts stay as they are.
     ///
     /// After a patch the surface is the one that `Surface::new` makes of the triangles without the removed ones and with
-    /// the new ones, [`raw::HF_WELD_NONE`] for the new vertices. Vertices keep their stiffness, new ones have 1.
-    /// Distances, directions and quads make a factor of their own when they are first asked for, as on a new surface.
-    /// Patches over a quarter of the surface, and with [`raw::HF_OPERATOR_CLAMPED`], make the whole operator and its
-    /// factor anew. Take links out before, and put them in again after it.
+    /// the new ones, [`raw::HF_WELD_NONE`] for the new vertices. Vertices keep their stiffness. New ones, and those that
+    /// were isolated, have 1. Distances, directions and quads make a factor of their own when they are first asked for,
+    /// as on a new surface. Patches over a quarter of the surface, and with [`raw::HF_OPERATOR_CLAMPED`], make the whole
+    /// operator and its factor anew. Take links out before, and put them in again after it.
     ///
     /// `Solver::move_to` takes sites along, and `Pose::move_to` takes handles along. After a patch or a cut make a new
     /// pose: `Pose::move_to` refuses other triangles. Soft sites keep the unit of their stiffness while links and

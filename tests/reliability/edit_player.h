@@ -1,0 +1,25 @@
+// Plays bytes as edits of a surface, and compares each one with a surface that is made afresh.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace edits {
+
+// What play() did. An edit may be refused for a reason of the header, such as a cut that parts nothing.
+struct Outcome {
+  bool passed = true;
+  std::string failure;
+  unsigned done[9] = {}, refused = 0;  // done: by kind of call, as in Player::step
+  double worst = 0;                    // largest difference of a field whose values span 1
+  double distance = 0, pose = 0;       // of exact distances, and of posed vertices in floats
+};
+
+// Fields agree to this, whatever was edited: the must of a surface that can be edited.
+constexpr double tolerance = 1e-9;
+// Groups and bands of a pose depend on the order of vertices, which patches change: of a body that is 6 long.
+constexpr double pose_tolerance = 1e-2;
+
+Outcome play(const std::uint8_t* bytes, std::size_t size);
+
+}  // namespace edits
