@@ -7,6 +7,7 @@
 
 #include "common/picture.h"
 #include "gltf/file_name.h"
+#include "transfer/texture_colors.h"
 
 namespace samples {
 
@@ -15,19 +16,23 @@ namespace {
 
 constexpr int columns = 6;  // frames beside the rest pose
 
-// The coat: vertex colours times the material's colour, as a display shows them.
+// The coat: vertex colours times the material's colour and texture, as a display shows them.
 std::vector<float> colours_of(const Model& model, const FlatMesh& mesh) {
   std::vector<float> out;
+  TextureColors textures(model);
   for (const FlatPart& part : mesh.parts) {
-    const int material =
-        model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)].material;
+    const Primitive& primitive =
+        model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
+    const int material = primitive.material;
+    const std::vector<glm::vec3> texture = textures.of(primitive);
     const glm::vec4 base = material >= 0 && static_cast<size_t>(material) < model.materials.size()
                                ? model.materials[static_cast<size_t>(material)].base_color
                                : glm::vec4(0.6f);
     for (uint32_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
       for (int c = 0; c < 3; ++c) {
         const float vertex = mesh.colors.empty() ? 1.0f : mesh.colors[v][c];
-        out.push_back(std::pow(std::clamp(base[c] * vertex, 0.02f, 1.0f), 1 / 2.2f));
+        const float sampled = texture[v - part.first_vertex][c];
+        out.push_back(std::pow(std::clamp(base[c] * vertex * sampled, 0.02f, 1.0f), 1 / 2.2f));
       }
     }
   }
