@@ -257,7 +257,7 @@ bool has_hip_bone(const Body& body, const Limb& limb) {
     const Vec3 a = body.pivots[at(path[0])], b = body.pivots[at(path[1])], bone = b - a;
     if (norm(bone) < hip_stub * norm(body.pivots[at(path[2])] - b)) return true;
     const double out_a = std::fabs(body.lateral(a)), out_b = std::fabs(body.lateral(b));
-    return std::fabs(dot(bone, body.up)) < level_bone * norm(bone) && out_a < 0.5 * out_b && out_b > 2 * central;
+    return std::fabs(dot(bone, body.up)) < level_bone * norm(bone) && out_a < 0.5 * out_b && out_b > central;
   });
 }
 
