@@ -87,7 +87,7 @@ Vector<SkinPoint> outermost(const skeleton::CharacterInput& in, const Stance& re
 
 // How high a joint of the feet rests over the sole: as on the lower foot, for a stride lifts the other one. In a leap
 // both are in the air, and the length of the foot bounds it.
-double over_sole(const Rig& rig, const Stance& rest, Index RigLeg::* joint) noexcept {
+double over_sole(const Rig& rig, const Stance& rest, Index RigLeg::*joint) noexcept {
   double height = 1e300;
   for (const RigLeg& leg : rig.legs) {
     if (leg.*joint < 0) continue;
@@ -99,7 +99,7 @@ double over_sole(const Rig& rig, const Stance& rest, Index RigLeg::* joint) noex
 
 // Without a skin a foot touches the ground below its joints.
 void add_bare_sole(const Rig& rig, const Stance& rest, RigLeg& leg) {
-  for (Index RigLeg::* joint : {&RigLeg::foot, &RigLeg::toe}) {
+  for (Index RigLeg::*joint : {&RigLeg::foot, &RigLeg::toe}) {
     const Index j = leg.*joint;
     if (j < 0) continue;
     SkinPoint p;

@@ -357,10 +357,11 @@ TEST(Root, APelvisBelowTheHipsTravelsWithThem) {
   pose[static_cast<std::size_t>(10 * source.rig().find("mixamorig:Hips") + 2)] += 3;  // three metres on
   retarget.frame(pose.data(), 0, out.data());
   const auto world = world_of(placed.parents, out.data());
-  const double was = norm(rig.joints[static_cast<std::size_t>(spine)].pivot -
-                          rig.joints[static_cast<std::size_t>(pelvis)].pivot);
-  EXPECT_NEAR(norm(place_at(world, static_cast<std::size_t>(spine)) - place_at(world, static_cast<std::size_t>(pelvis))),
-              was, 1e-6);
+  const double was =
+      norm(rig.joints[static_cast<std::size_t>(spine)].pivot - rig.joints[static_cast<std::size_t>(pelvis)].pivot);
+  EXPECT_NEAR(
+      norm(place_at(world, static_cast<std::size_t>(spine)) - place_at(world, static_cast<std::size_t>(pelvis))), was,
+      1e-6);
   EXPECT_GT(place_at(world, static_cast<std::size_t>(pelvis)).z, 2.5);
 }
 

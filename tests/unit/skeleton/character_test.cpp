@@ -250,6 +250,33 @@ TEST(Limbs, ALevelThighIsAThigh) {
   EXPECT_EQ(placed.faults(found), "") << why(found);
 }
 
+// A stout body has flippers or floating hands.
+TEST(Arms, AHandOnTheTrunkIsTheWholeArm) {
+  Rig rig = make_biped("dots", {});
+  for (RigJoint& joint : rig.joints) {
+    if (joint.role != Role::arm && joint.role != Role::hand && joint.role != Role::finger) continue;
+    joint.role = Role::other;
+    joint.judged = false;
+    joint.helper = true;
+    joint.name = "";
+  }
+  for (std::size_t v = 0; v < rig.points.size(); ++v) {
+    RigJoint& owner = rig.joints[static_cast<std::size_t>(rig.owners[v])];
+    if (owner.role == Role::other && !owner.judged)
+      rig.owners[v] = rig.find("shoulder." + std::string(owner.side == Side::left ? "l" : "r"));
+  }
+  for (const char* side : {"l", "r"}) {
+    RigJoint& hand = rig.joints[static_cast<std::size_t>(rig.find(std::string("shoulder.") + side))];
+    hand.name = std::string("hand.") + side;
+    hand.role = Role::arm;
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  for (const char* side : {"l", "r"})
+    EXPECT_EQ(found.roles[static_cast<std::size_t>(rig.find(std::string("hand.") + side))], Role::arm) << why(found);
+}
+
 CharacterInput bare(CharacterInput input) {
   input.vertex_count = input.triangle_count = 0;
   input.influence_starts = nullptr;
@@ -283,8 +310,7 @@ TEST(Limbs, AreThoseOfTheJointsWhereTheSurfaceIsAHead) {
   rig.owners.clear();
   rig.triangles.clear();
   std::vector<std::uint8_t> bound(rig.joints.size(), 0);
-  for (const char* name : {"Spine3", "Neck", "Head"})
-    bound[static_cast<std::size_t>(rig.find(name))] = 1;
+  for (const char* name : {"Spine3", "Neck", "Head"}) bound[static_cast<std::size_t>(rig.find(name))] = 1;
   rig.add_block(rig.find("Head"), {-0.1, 1.55, -0.1}, {0.1, 1.8, 0.12});
   rig.add_block(rig.find("Neck"), {-0.05, 1.45, -0.05}, {0.05, 1.55, 0.05});
   rig.add_block(rig.find("Spine3"), {-0.1, 1.4, -0.05}, {0.1, 1.45, 0.05});

@@ -4,8 +4,9 @@
 namespace hf_test {
 
 const std::vector<std::string> biped_conventions = {
-    "mixamo", "unreal",     "unity", "rigify", "rigify org", "rigify rows", "vrm",     "ready player me",
-    "kaykit", "quaternius", "biped", "poser",  "dots",       "words",       "portuguese", "numbers", "none"};
+    "mixamo", "unreal",          "unity",      "rigify",     "rigify org", "rigify rows",
+    "vrm",    "ready player me", "kaykit",     "quaternius", "biped",      "poser",
+    "dots",   "words",           "portuguese", "numbers",    "none"};
 
 namespace {
 
