@@ -38,6 +38,12 @@ Stance stand(const Model& model, FlatMesh& mesh, const Axes* axes, const std::op
   return std::move(*found);
 }
 
+// No surface, if the file has that of a part of the body alone, such as a head with the clips of all joints.
+FlatMesh whole_surface(const Model& model, const Axes* axes) {
+  FlatMesh mesh = flatten(model);
+  return know_body(model, mesh, axes, nullptr).partial ? FlatMesh() : mesh;
+}
+
 // What asks for places of a surface.
 std::string needs_surface(const TransferCommand& command) {
   for (const auto& [is, option] : {std::pair<bool, const char*>(!command.pairs.empty(), "--pairs"),
@@ -161,7 +167,7 @@ JointModels::JointModels(const Model& source_model, const Model& target_model, c
                          const std::optional<Pose>& given_source_rest, const std::optional<Pose>& given_target_rest)
     : source(source_model),
       target(target_model),
-      source_mesh(flatten(source_model)),
+      source_mesh(whole_surface(source_model, given(command.source_axes))),
       target_mesh(flatten(target_model)),
       source_stance(stand(source, source_mesh, given(command.source_axes), given_source_rest)),
       target_stance(stand(target, target_mesh, given(command.target_axes), given_target_rest)),

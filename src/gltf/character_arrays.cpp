@@ -44,16 +44,16 @@ glm::dvec3 middle_of_joints(const Model& model, const Pose& pose) {
 }  // namespace
 
 CharacterArrays::CharacterArrays(const Model& model, const FlatMesh& mesh, const Pose& pose) {
-  add_nodes(model, pose);
+  add_nodes(model, mesh, pose);
   add_surface(model, mesh);
   add_declared(model);
   add_said(model);
   add_travels(model);
 }
 
-void CharacterArrays::add_nodes(const Model& model, const Pose& pose) {
+void CharacterArrays::add_nodes(const Model& model, const FlatMesh& mesh, const Pose& pose) {
   const size_t n = model.nodes.size();
-  bound.assign(n, model.skins.empty());
+  bound.assign(n, model.skins.empty() || mesh.positions.empty());
   inverse_binds.assign(16 * n, 0.0);
   for (size_t k = 0; k < n; ++k) {
     texts.push_back(model.nodes[k].name);

@@ -59,7 +59,7 @@ struct CharacterArrays {
   }
 
  private:
-  void add_nodes(const Model& model, const Pose& pose);
+  void add_nodes(const Model& model, const FlatMesh& mesh, const Pose& pose);
   void add_surface(const Model& model, const FlatMesh& mesh);
   void add_declared(const Model& model);
   void add_said(const Model& model);

@@ -122,6 +122,7 @@ void take(const Character& character, KnownBody& out) {
   out.up_why.assign(character.up_why.begin(), character.up_why.end());
   out.forward_why.assign(character.forward_why.begin(), character.forward_why.end());
   out.why = lines_of(character.why);
+  out.partial = character.partial;
   const auto is_leg = [](const Chain& chain) { return chain.role == Role::leg && chain.side == Side::left; };
   out.upright =
       character.trunk > upright_trunk && std::count_if(character.chains.begin(), character.chains.end(), is_leg) == 1;

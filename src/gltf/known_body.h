@@ -27,6 +27,7 @@ struct KnownBody {
   std::vector<KnownNode> nodes;     // as the model's; empty: there is no skeleton
   // of an upright body, along the joints to the ground; else how high the hind legs begin. 0: there are no legs.
   double leg_length = 0;
+  bool partial = false;  // the surface is of a part of the body and does not count
   bool upright = false;  // the way from the hips to the head leads up
   bool knows_axes() const;
   bool knows_parts() const;

@@ -364,12 +364,14 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
                              (b.leg_pairs > 1 && limb.role == Role::leg ? " " + std::to_string(limb.number + 1) : ""),
                          0, 0});
     const size_t index = out.limbs.size() - 1;
-    if (by->role != limb.role) {  // a fin has other joints than an arm: the whole limb points where it does
+    // A fin has other joints than an arm, and arms of an upright body and of one that is not rest in their own bends:
+    // the retarget brings their lines together, from root to tip.
+    if (by->role != limb.role || (limb.role == Role::arm && a.upright != b.upright)) {
       if (limb.nodes[2] >= 0 && by->nodes[2] >= 0)
         bones.push_back({index, true, {by->nodes[0], by->nodes[2]}, {limb.nodes[0], limb.nodes[2]}});
       continue;
     }
-    const bool alike = limb.role == Role::arm ? a.upright == b.upright : a.upright && b.upright;
+    const bool alike = limb.role == Role::arm || (a.upright && b.upright);
     const auto both = [&](size_t k) { return limb.nodes[k] >= 0 && by->nodes[k] >= 0; };
     const int middle = middle_of(limb, *by);
     if (both(1)) bones.push_back({index, alike, {by->nodes[0], by->nodes[1]}, {limb.nodes[0], middle}});

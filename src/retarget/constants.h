@@ -68,6 +68,8 @@ constexpr double same_rest = 1e-5;
 // Two joints are in one place, with no bone between them, below this share of the height. Rounding of 32-bit files is a
 // hundredth of it; ten times as much is a bone of a finger.
 constexpr double no_length = 1e-5;
+// A bone of the pelvis below the hips is no longer than this share of the height: a Biped's is 0.04.
+constexpr double pelvis_bone = 0.08;
 // Poses taken for equal skeletons hold rotations that differ by no more than this in a quaternion.
 constexpr double same_turn = 1e-5;
 

@@ -61,10 +61,10 @@ Retargeter::Retargeter(const RetargetSide& s, const RetargetSide& t, const Retar
 }
 
 // Stride and height by the lengths of legs, from hip to sole. Animals stand in legs that are bent at rest, each kind in
-// its own way, so between them the heights of the hips count.
+// its own way. Their legs are not aligned: they turn from rest to rest, so the heights of the hips count.
 void Retargeter::find_scale() {
   const auto ratio = [](double t, double s) { return t > 0 && s > 0 ? t / s : 0.0; };
-  const bool animals = source.legs.size() > 2 && target.legs.size() > 2;
+  const bool animals = !people;
   height_scale = animals ? ratio(target.hip_height, source.hip_height) : ratio(target.leg_length, source.leg_length);
   report_.scale_source = animals ? ScaleSource::hips : ScaleSource::legs;
   if (!(height_scale > 0) || source.legs.empty() || target.legs.empty()) {

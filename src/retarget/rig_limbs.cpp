@@ -158,6 +158,13 @@ void find_trunk(Rig& rig, const skeleton::Character& character) {
   if ((rig.legs.empty() || rig.mover < 0) && !character.chains.empty())
     rig.mover = first_joint(character, character.chains[0]);
   if (rig.mover < 0) rig.mover = rig.order[0];
+  // Thighs may hang above the pelvis, as in 3ds Max's Biped. A root at the ground is farther away.
+  for (Index p = rig.carriers[at(rig.mover)]; p >= 0 && character.roles[at(p)] == skeleton::Role::spine;
+       p = rig.carriers[at(p)]) {
+    const double apart = norm(rig.rest.place[at(p)] - rig.rest.place[at(rig.mover)]);
+    if (rig.linked[at(rig.mover)] || !(apart > no_length * rig.height) || apart > pelvis_bone * rig.height) break;
+    rig.mover = p;
+  }
   for (Index j = rig.head >= 0 ? rig.carriers[at(rig.head)] : arms, steps = 0;
        j >= 0 && j != rig.mover && steps <= rig.count; j = rig.carriers[at(j)], ++steps) {
     const Vec3 from_mover = rig.rest.place[at(j)] - rig.rest.place[at(rig.mover)];

@@ -85,15 +85,27 @@ Vector<SkinPoint> outermost(const skeleton::CharacterInput& in, const Stance& re
   return out;
 }
 
+// How high a joint of the feet rests over the sole: as on the lower foot, for a stride lifts the other one. In a leap
+// both are in the air, and the length of the foot bounds it.
+double over_sole(const Rig& rig, const Stance& rest, Index RigLeg::*joint) noexcept {
+  double height = 1e300;
+  for (const RigLeg& leg : rig.legs) {
+    if (leg.*joint < 0) continue;
+    height = std::min(height, rig.height_of(rest.place[at(leg.*joint)]));
+    if (leg.toe >= 0) height = std::min(height, norm(rest.place[at(leg.toe)] - rest.place[at(leg.foot)]));
+  }
+  return height;
+}
+
 // Without a skin a foot touches the ground below its joints.
 void add_bare_sole(const Rig& rig, const Stance& rest, RigLeg& leg) {
-  for (const Index j : {leg.foot, leg.toe}) {
+  for (Index RigLeg::*joint : {&RigLeg::foot, &RigLeg::toe}) {
+    const Index j = leg.*joint;
     if (j < 0) continue;
     SkinPoint p;
     p.joints[0] = j;
     p.weights[0] = 1;
-    const Vec3 place = rest.place[at(j)];
-    fasten(p, place - rig.height_of(place) * rig.up, rest);
+    fasten(p, rest.place[at(j)] - over_sole(rig, rest, joint) * rig.up, rest);
     if (p.joints[0] >= 0) leg.sole.push_back(p);
   }
 }

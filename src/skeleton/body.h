@@ -123,6 +123,8 @@ struct Body {
   Span<const std::uint32_t> owned_by(Index joint) const noexcept {
     return {owned.data() + owned_starts[at(joint)], owned_starts[at(joint) + 1] - owned_starts[at(joint)]};
   }
+  // Whether a joint has no part in the skeleton: it is a root with at most one joint below it, such as a camera.
+  bool is_stray(Index joint) const noexcept;
   // The joints below a joint of the tree and itself, parents first.
   Span<const Index> subtree(Index joint) const noexcept {
     const std::size_t first = at(places[at(joint)]);

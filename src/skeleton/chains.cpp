@@ -133,16 +133,19 @@ const Chain* find_chain(const Character& out, Role role, Side side, bool last) {
 
 // Means over both sides.
 void measure_limbs(const Body& body, Character& out) {
-  double legs = 0, hips = 0, leg_count = 0, arms = 0, arm_count = 0;
+  double legs = 0, hips = 0, leg_count = 0, arms = 0, arm_count = 0, foot = 1e300;
   for (const Side side : {Side::left, Side::right}) {
     if (const Chain* leg = find_chain(out, Role::leg, side, true)) {
       const Index hip = static_cast<Index>(out.chain_joints[leg->first]);
       const Index end = static_cast<Index>(out.chain_joints[leg->first + leg->count - 1]);
       double sole = 0;
       for (const Index child : body.children_of(end)) {
-        if (body.roles[at(child)] == Role::foot) sole = std::max(0.0, body.height_of(body.pivots[at(child)]));
+        if (body.roles[at(child)] != Role::foot) continue;
+        sole = std::max(0.0, body.height_of(body.pivots[at(child)]));
+        if (body.points.empty()) sole = std::min(sole, body.reaches[at(child)]);  // in a leap no foot is on the ground
       }
-      legs += leg->length + body.scale * sole;
+      foot = std::min(foot, sole);
+      legs += leg->length;
       hips += body.scale * body.height_of(body.pivots[at(hip)]);
       leg_count += 1;
     }
@@ -152,7 +155,7 @@ void measure_limbs(const Body& body, Character& out) {
     }
   }
   if (leg_count > 0) {
-    out.leg_length = legs / leg_count;
+    out.leg_length = legs / leg_count + body.scale * foot;  // a stride lifts the other foot
     out.hip_height = hips / leg_count;
   }
   if (arm_count > 0) out.arm_length = arms / arm_count;
@@ -211,6 +214,45 @@ void write_character(Body& body, Character& out) {
   out.forward_why = body.forward_why;
 }
 
+namespace {
+
+// Without the surface.
+CharacterInput bare_of(const CharacterInput& input) {
+  CharacterInput bare = input;
+  bare.bound = nullptr;
+  bare.vertex_count = bare.triangle_count = 0;
+  bare.influence_starts = nullptr;
+  return bare;
+}
+
+// Whether the surface may be of a part of the body, as a head in a file of clips: no name in it says leg, and there are
+// other joints.
+bool lacks_legs(const Body& body) {
+  if (body.points.empty() || !body.named) return false;
+  std::size_t others = 0;
+  for (std::size_t j = 0; j < at(body.count); ++j) {
+    if (body.kept[j] && body.names[j].named == NameClass::leg) return false;
+    others += !body.kept[j];
+  }
+  return others >= 4;  // two joints of each leg
+}
+
+// Whether the joints alone have named legs on both sides that end far from the surface.
+bool has_legs_beyond(const Body& body, const Character& bare) {
+  Box box;
+  for (const Vec3& p : body.points) box.add(p);
+  bool found[3] = {};
+  for (const Chain& chain : bare.chains) {
+    const Index tip = static_cast<Index>(bare.chain_joints[chain.first + chain.count - 1]);
+    if (chain.role == Role::leg && chain.count > 1 && box.distance(body.pivots[at(tip)]) > far_from_surface)
+      found[static_cast<std::size_t>(chain.side)] = true;
+  }
+  return bare.role_confidence > 0.9 && found[static_cast<std::size_t>(Side::left)] &&
+         found[static_cast<std::size_t>(Side::right)];
+}
+
+}  // namespace
+
 Character know_character(const CharacterInput& input, Memory& memory) {
   Body body(input, memory);
   read_joints(body);
@@ -219,6 +261,15 @@ Character know_character(const CharacterInput& input, Memory& memory) {
   find_owners(body);
   read_names(body);
   poll();
+  if (lacks_legs(body)) {
+    Character bare = know_character(bare_of(input), memory);
+    if (has_legs_beyond(body, bare)) {
+      const char words[] = "The surface is of a part of the body: joints and names alone count.\n";
+      bare.partial = true;
+      bare.why.insert(bare.why.begin(), words, words + sizeof words - 1);
+      return bare;
+    }
+  }
   find_mirror(body);
   join_pieces(body);
   build_tree(body);

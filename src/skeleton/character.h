@@ -140,6 +140,8 @@ struct Character {
   // Cosine of the way from the hips to the head against up: 1 stands upright, 0 is level. 1 where one is not known.
   double trunk = 1;
 
+  bool partial = false;  // the surface is of a part of the body, as a head in a file of clips, and does not count
+
   Vector<char> why;  // sentences, one a line
   // The reasons for the axes in a few words: "legs down, head up".
   Vector<char> up_why, forward_why;

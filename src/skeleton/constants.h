@@ -27,6 +27,11 @@ constexpr double standing = 0.06;
 constexpr double branching = 0.5;
 // The foot of a leg is its last joint below this share of the height of the hip.
 constexpr double ankle_height = 0.5;
+// A leg begins with a bone of the hips if that is shorter than this share of the next (a thigh's twist bones are a
+// third), or if it drops by less than this share of its length: 20 degrees; thighs of stout bodies drop by 70.
+constexpr double hip_stub = 0.15, level_bone = 0.35;
+// Feet so far from the box of the surface are not under it: a robe ends at half of it.
+constexpr double far_from_surface = 0.25;
 // The trunk is upright above this cosine of hips to head against up.
 constexpr double upright_trunk = 0.6;
 // A clip that leads less far leads nowhere.

@@ -55,7 +55,7 @@ void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
   constexpr double under = 0.5;  // in halves of a sole: a knee that is farther from under its hip is bent
   for (int side = 0; side < 2; ++side) {
     const auto& path = limb.paths[side];
-    const std::size_t thigh = leads_out(body, limb) ? 1 : 0, ankle = ankle_of(body, path, thigh);
+    const std::size_t thigh = thigh_of(body, limb), ankle = ankle_of(body, path, thigh);
     if (path.size() < thigh + 2) continue;
     const Vec3 joint = body.pivots[at(ankle > 0 ? path[ankle] : path.back())],
                upper = body.pivots[at(ankle > 0 ? path[ankle] : path[thigh])];
@@ -79,7 +79,7 @@ void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
 // The knee against the line from hip to ankle: a tenth of the leg's length is a full vote.
 void look_at_knees(const Body& body, const Limb& limb, Facts& facts) {
   for (const auto& path : limb.paths) {
-    const std::size_t thigh = leads_out(body, limb) ? 1 : 0;
+    const std::size_t thigh = thigh_of(body, limb);
     if (path.size() < thigh + 3) continue;
     const Vec3 a = body.pivots[at(path[thigh])], b = body.pivots[at(path[thigh + 2])],
                knee = body.pivots[at(path[thigh + 1])], d = b - a;
@@ -247,6 +247,22 @@ bool leads_out(const Body& body, const Limb& limb) {
   const auto place = [&](int side, std::size_t k) { return body.pivots[at(limb.paths[side][k])]; };
   return limb.paths[0].size() > 1 && limb.paths[1].size() > 1 && norm(place(0, 0) - place(1, 0)) < one_place &&
          norm(place(0, 1) - place(1, 1)) > 2 * central;
+}
+
+// The bone is short, or nearly level and outward from the middle. A thigh that lies level, as on a chair, begins at
+// the side of the body.
+bool has_hip_bone(const Body& body, const Limb& limb) {
+  if (limb.paths[0].size() < 4 || limb.paths[1].size() < 4 || standing_limbs(body).size() != 1) return false;
+  return std::all_of(std::begin(limb.paths), std::end(limb.paths), [&](const Vector<Index>& path) {
+    const Vec3 a = body.pivots[at(path[0])], b = body.pivots[at(path[1])], bone = b - a;
+    if (norm(bone) < hip_stub * norm(body.pivots[at(path[2])] - b)) return true;
+    const double out_a = std::fabs(body.lateral(a)), out_b = std::fabs(body.lateral(b));
+    return std::fabs(dot(bone, body.up)) < level_bone * norm(bone) && out_a < 0.5 * out_b && out_b > central;
+  });
+}
+
+std::size_t thigh_of(const Body& body, const Limb& limb) {
+  return leads_out(body, limb) || has_hip_bone(body, limb) ? 1 : 0;
 }
 
 std::size_t ankle_of(const Body& body, const Vector<Index>& path, std::size_t thigh) {

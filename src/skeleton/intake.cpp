@@ -79,6 +79,11 @@ Vec3 Body::travel(std::uint32_t clip) const noexcept {
   return norm(level) < travelled ? Vec3{} : unit_vector(level);
 }
 
+bool Body::is_stray(Index joint) const noexcept {
+  while (parents[at(joint)] >= 0) joint = parents[at(joint)];
+  return leave[at(joint)] - enter[at(joint)] < 2 && count >= 10;
+}
+
 double Body::lowest_below(Index joint, Vec3 axis) const noexcept {
   double lowest = 1e300;
   for_points_below(joint, [&](Vec3 p) { lowest = std::min(lowest, dot(p, axis)); });
@@ -218,8 +223,8 @@ void check_influences(const CharacterInput& in) {
 void normalise(Body& body) {
   Box box;
   for (const Vec3& p : body.points) box.add(p);
-  if (body.points.empty()) {
-    for (const Vec3& p : body.pivots) box.add(p);
+  for (Index j = 0; j < body.count && body.points.empty(); ++j) {
+    if (!body.is_stray(j)) box.add(body.pivots[at(j)]);
   }
   body.centre = box.middle();
   body.scale = norm(box.high - box.low);

@@ -140,7 +140,8 @@ void find_owners(Body& body) {
   const bool bare = std::find(body.owns.begin(), body.owns.end(), 1) == body.owns.end();
   if (bare) {
     body.say("No joint owns a vertex: controls cannot be told from the body.");
-    for (std::size_t j = 0; j < n; ++j) body.owns[j] = is_bound(body, static_cast<Index>(j));
+    for (std::size_t j = 0; j < n; ++j)
+      body.owns[j] = is_bound(body, static_cast<Index>(j)) && !body.is_stray(static_cast<Index>(j));
   }
   for (std::size_t k = n; k-- > 0;) {
     const Index j = body.order[k], p = body.parents[at(j)];

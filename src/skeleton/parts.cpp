@@ -46,6 +46,7 @@ bool has_collar(const Body& body, const Limb& limb, const Vector<Index>& path, s
   const JointName& first = body.names[at(path[0])];
   if (body.named && path.size() > 2 && (first.named == NameClass::trunk || first.collar)) return true;
   if (hand > 1 && leads_out(body, limb)) return true;
+  if (hand > 2 && limb.named == NameClass::leg && has_hip_bone(body, limb)) return true;        // a raised leg
   const bool says_nothing = first.named == NameClass::none || first.named == NameClass::loose;  // a sleeve carries it
   if (!says_nothing || hand < 3) return false;
   return hand == 3 || bone(body, path, 0) < 0.6 * bone(body, path, 1);
@@ -57,6 +58,7 @@ std::size_t find_hand(const Body& body, const Limb& limb, const Vector<Index>& p
   const std::size_t collars = leads_out(body, limb) ? 1 : 0;
   for (std::size_t k = 0; k < path.size() && body.named; ++k) {
     if (!body.names[at(path[k])].hand) continue;
+    if (k == 0) return path.size();  // a hand on the trunk is the whole arm
     // A hand that is longer than the arm above it is a forearm: the second of two bones was named by its end.
     const bool forearm =
         k == collars + 1 && k + 1 == path.size() && body.reaches[at(path[k])] > bone(body, path, k - 1);
@@ -86,7 +88,7 @@ void assign_leg(Body& body, const Limb& limb, int side) {
   // Shoulder, elbow and foot are a whole leg: then the shoulder is the thigh.
   const bool blade = first_name.collar && body.named && path.size() > 3;
   const bool named = (pelvis && path.size() > 2) || blade;
-  const std::size_t first = named || leads_out(body, limb) ? 1 : 0;
+  const std::size_t first = named ? 1 : thigh_of(body, limb);
   const std::size_t foot = find_foot(body, path, first);
   set_digits(body, limb, side, foot, Role::toe);
   set_from(body, path, 0, first, Role::shoulder);

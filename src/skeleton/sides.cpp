@@ -129,14 +129,20 @@ void find_named_plane(Body& body, const NamedSides& sides, MirrorSearch& search)
       if (std::fabs(c) > snapped - unsure) candidates.push_back((c > 0 ? 1.0 : -1.0) * coordinate_axes[axis]);
     }
   }
-  double best = -1e300;
+  double best = -1e300, straight = -1e300;
+  Vec3 axis;
   for (const Vec3& candidate : candidates) {
     const double score = search.look(candidate, true).score + (is_straight(candidate) ? central : 0);
     if (score > best) {
       best = score;
       body.left = candidate;
     }
+    if (is_straight(candidate) && score > straight) {
+      straight = score;
+      axis = candidate;
+    }
   }
+  if (best < 0 && straight > -1e300) body.left = axis;  // a stride mirrors in no plane, and turns hips and shoulders
   body.left = snap(body.left);
   const Plane plane = search.look(body.left, false, true);
   body.offset = offset_of_pairs(body, plane.offset);

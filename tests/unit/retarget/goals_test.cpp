@@ -341,5 +341,67 @@ TEST(Beasts, RestInIsRestOut) {
   }
 }
 
+// In 3ds Max's Biped thighs may hang on the spine, above the pelvis.
+TEST(Root, APelvisBelowTheHipsTravelsWithThem) {
+  const RigActor source("mixamo", {});
+  Rig rig = make_biped("biped", {});
+  const int pelvis = rig.find("Bip01 Pelvis"), spine = rig.find("Bip01 Spine1");
+  for (const char* name : {"Bip01 L Thigh", "Bip01 R Thigh"})
+    rig.joints[static_cast<std::size_t>(rig.find(name))].parent = spine;
+  const PlacedRig placed(rig, {});
+  Memory memory;
+  const auto input = placed.input();
+  const auto character = hf_inner::skeleton::know_character(input, memory);
+  Retarget retarget(source.side(), {input, character, nullptr}, {}, memory);
+  std::vector<double> pose = source.act(0).trs, out(10 * rig.joints.size());
+  pose[static_cast<std::size_t>(10 * source.rig().find("mixamorig:Hips") + 2)] += 3;  // three metres on
+  retarget.frame(pose.data(), 0, out.data());
+  const auto world = world_of(placed.parents, out.data());
+  const double was =
+      norm(rig.joints[static_cast<std::size_t>(spine)].pivot - rig.joints[static_cast<std::size_t>(pelvis)].pivot);
+  EXPECT_NEAR(
+      norm(place_at(world, static_cast<std::size_t>(spine)) - place_at(world, static_cast<std::size_t>(pelvis))), was,
+      1e-6);
+  EXPECT_GT(place_at(world, static_cast<std::size_t>(pelvis)).z, 2.5);
+}
+
+// A source without a skin rests in a stride. When it stands, the soles of both feet are on the ground.
+TEST(Goals, AStrideWithoutASkinStandsOnBothFeet) {
+  const RigActor target("unity", {});
+  Rig rig = make_biped("mixamo", {});
+  rig.turn(rig.find("mixamorig:RightUpLeg"), {1, 0, 0}, -40);
+  rig.turn(rig.find("mixamorig:RightLeg"), {1, 0, 0}, 70);
+  const PlacedRig placed(rig, {});
+  auto input = placed.input();
+  input.vertex_count = input.triangle_count = 0;
+  input.influence_starts = nullptr;
+  input.vertex_joints = nullptr;
+  Memory memory;
+  const auto character = hf_inner::skeleton::know_character(input, memory);
+  Retarget retarget({input, character, nullptr}, target.side(), {}, memory);
+  std::vector<double> pose = rest_trs(input);
+  const auto rest = world_of(placed.parents, pose.data());
+  const auto turn_of = [&](const char* name) {
+    return hf_inner::retarget::turn_of(linear_at(rest, static_cast<std::size_t>(rig.find(name))));
+  };
+  const auto about_x = [](double degrees) { return hf_inner::retarget::turn_about({1, 0, 0}, degree * degrees); };
+  const Turn hips = turn_of("mixamorig:Hips"), thigh = about_x(40) * turn_of("mixamorig:RightUpLeg"),
+             shin = about_x(-30) * turn_of("mixamorig:RightLeg"), foot = about_x(-30) * turn_of("mixamorig:RightFoot");
+  for (const auto& [name, q] : {std::pair{"mixamorig:RightUpLeg", inverse(hips) * thigh},
+                                {"mixamorig:RightLeg", inverse(thigh) * shin},
+                                {"mixamorig:RightFoot", inverse(shin) * foot}}) {
+    const double numbers[] = {q.x, q.y, q.z, q.w};
+    std::copy(numbers, numbers + 4, &pose[static_cast<std::size_t>(10 * rig.find(name)) + 3]);
+  }
+  std::vector<double> out(10 * target.rig().joints.size());
+  for (int f = 0; f < 20; ++f) retarget.frame(pose.data(), f == 0 ? 0 : 1.0 / 30, out.data());
+  const double sole = target.sole_height(world_of(target.parents(), out.data())) / target.height();
+  EXPECT_NEAR(sole, 0, 0.003);
+  const auto world = world_of(target.parents(), out.data());
+  const double left = place_at(world, static_cast<std::size_t>(target.rig().find("LeftFoot"))).y,
+               right = place_at(world, static_cast<std::size_t>(target.rig().find("RightFoot"))).y;
+  EXPECT_NEAR(left, right, 0.02);  // the sole was tilted at rest
+}
+
 }  // namespace
 }  // namespace hf_test

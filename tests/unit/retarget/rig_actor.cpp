@@ -106,7 +106,7 @@ RigActor::Frame RigActor::frame_of(std::size_t joint, double time, bool mirrored
       out.since_t = m.neck();
       break;
     case Role::shoulder:
-      out.since_t = m.collar(s);
+      out.since_t = j->pivot.y < shape_.leg ? m.hips() : m.collar(s);
       break;
     case Role::arm:
     case Role::hand:

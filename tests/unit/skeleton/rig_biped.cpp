@@ -4,8 +4,9 @@
 namespace hf_test {
 
 const std::vector<std::string> biped_conventions = {
-    "mixamo", "unreal",     "unity", "rigify", "rigify org", "rigify rows", "vrm",     "ready player me",
-    "kaykit", "quaternius", "biped", "dots",   "words",      "portuguese",  "numbers", "none"};
+    "mixamo", "unreal",          "unity",      "rigify",     "rigify org", "rigify rows",
+    "vrm",    "ready player me", "kaykit",     "quaternius", "biped",      "poser",
+    "dots",   "words",           "portuguese", "numbers",    "none"};
 
 namespace {
 
@@ -127,7 +128,13 @@ struct Builder {
   void leg(Side side) {
     const double s = side == Side::left ? 1 : -1, l = shape.leg, x = s * (0.1 + shape.aside);
     const Vec3 hip{s * 0.1, 0.95 * l, 0}, knee{x, 0.5 * l, 0.02}, ankle{x, 0.08, -0.02}, ball{x, 0.03, 0.11};
-    const int thigh = bone("thigh", side, hips, hip, knee, Role::leg, 0.065);
+    int on = hips;
+    if (has("buttock")) {
+      const Vec3 above = hip + Vec3{0, 0.02 * l, 0};
+      on = rig.add(name("buttock", side), hips, above, Role::shoulder, side);
+      rig.add_box(on, above, hip, 0.06);
+    }
+    const int thigh = bone("thigh", side, on, hip, knee, Role::leg, 0.065);
     twist("twist3", side, thigh, hip, knee, 0.4, Role::leg, 0.065);
     const int shin = bone("shin", side, thigh, knee, ankle, Role::leg, 0.05);
     const int foot = rig.add(name("foot", side), convention == "quaternius" ? root : shin, ankle, Role::foot, side);
