@@ -305,7 +305,7 @@ impl DeformedMesh {
         let mut options = hf::HandlesOptions { layer: batch[0].handle.layer, ..default() };
         let regions: Vec<&[u32]> = batch.iter().filter_map(|wanted| wanted.region.as_ref()).map(|region| &region.0[..]).collect();
         if regions.is_empty() {
-            (options.points, options.radii) = (Some(&points), Some(&radii));
+            (options.points, options.radii) = (Some(&points[..]), Some(&radii[..]));
         }
         let numbers = self.pose.add_handles((!regions.is_empty()).then_some(&regions[..]), &options)?;
         for (wanted, number) in batch.iter().zip(numbers) {
