@@ -65,7 +65,8 @@ fn module() -> String {
     let kept = source.split_once("// ---- compute").expect("hf_blend.wgsl has a part named compute").0;
     let own = |line: &&str| !["@binding(5)", "@binding(7)"].iter().any(|binding| line.contains(binding));
     let text: Vec<&str> = kept.lines().filter(own).collect();
-    "#define_import_path hf::blend\n".to_string() + &text.join("\n").replace("@group(0) @binding(", "@group(#{MATERIAL_BIND_GROUP}) @binding(10")
+    "#define_import_path hf::blend\n".to_string()
+        + &text.join("\n").replace("@group(0) @binding(", "@group(#{MATERIAL_BIND_GROUP}) @binding(10")
 }
 
 impl Plugin for GpuBlendPlugin {
@@ -81,10 +82,7 @@ impl Plugin for GpuBlendPlugin {
         app.configure_sets(PostUpdate, DeformSystems.before(VisibilitySystems::CheckVisibility))
             .add_systems(
                 PostUpdate,
-                (
-                    (follow_materials, begin).chain().after(bind::bind).before(pose_meshes).run_if(can_blend),
-                    upload.after(write_meshes),
-                )
+                ((follow_materials, begin).chain().after(bind::bind).before(pose_meshes).run_if(can_blend), upload.after(write_meshes))
                     .in_set(DeformSystems),
             )
             .add_observer(on_blend_removed)
@@ -238,10 +236,8 @@ fn follow_materials(
     mut changes: MessageReader<AssetEvent<StandardMaterial>>,
     mut commands: Commands,
 ) {
-    let changed: Vec<AssetId<StandardMaterial>> = changes
-        .read()
-        .filter_map(|change| if let AssetEvent::Modified { id } = change { Some(*id) } else { None })
-        .collect();
+    let changed: Vec<AssetId<StandardMaterial>> =
+        changes.read().filter_map(|change| if let AssetEvent::Modified { id } = change { Some(*id) } else { None }).collect();
     for mut buffers in &mut blended {
         for part in &mut buffers.bypass_change_detection().parts {
             let other = shown.get(part.entity).ok().map(|other| other.0.clone());

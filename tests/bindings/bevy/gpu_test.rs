@@ -86,8 +86,8 @@ impl Scene {
         let image = Image::new_target_texture(WIDTH, HEIGHT, TextureFormat::Rgba8UnormSrgb, None);
         let image = app.world_mut().resource_mut::<Assets<Image>>().add(image);
         let mut materials = app.world_mut().resource_mut::<Assets<StandardMaterial>>();
-        let [red, blue, grey] =
-            [[0.9, 0.4, 0.3], [0.3, 0.5, 0.9], [0.7, 0.7, 0.7]].map(|[r, g, b]| materials.add(StandardMaterial::from(Color::srgb(r, g, b))));
+        let [red, blue, grey] = [[0.9, 0.4, 0.3], [0.3, 0.5, 0.9], [0.7, 0.7, 0.7]]
+            .map(|[r, g, b]| materials.add(StandardMaterial::from(Color::srgb(r, g, b))));
         // its mesh is a mirrored one
         materials.get_mut(&blue).unwrap().cull_mode = Some(Face::Front);
         let mut meshes = app.world_mut().resource_mut::<Assets<Mesh>>();
@@ -146,7 +146,11 @@ impl Scene {
     fn blend(&mut self, gpu: bool) {
         for worm in self.worms {
             let mut worm = self.app.world_mut().entity_mut(worm);
-            if gpu { worm.insert(GpuBlend) } else { worm.remove::<GpuBlend>() };
+            if gpu {
+                worm.insert(GpuBlend)
+            } else {
+                worm.remove::<GpuBlend>()
+            };
         }
         self.frames(3);
     }
