@@ -14,7 +14,7 @@ use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
 use bevy::render::render_resource::{Face, TextureFormat};
 use bevy::render::view::window::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::window::ExitCondition;
-use hf_bevy::{BlendMaterial, DeformHandle, DeformPlugin, DeformedMesh, Deformer, GpuBlend, GpuBlendPlugin, HandleLimb};
+use hf_bevy::{BlendMaterial, DeformHandle, DeformPlugin, DeformedMesh, Deformer, GpuBlend, GpuBlendPlugin, HandleLimb, HandleRotation};
 use std::f32::consts::TAU;
 
 const WIDTH: u32 = 480;
@@ -121,10 +121,9 @@ impl Scene {
         (0..count).for_each(|_| self.app.update());
     }
 
-    /// A pose of its own for each worm; the tips come there in some frames, and turn.
-    fn pull(&mut self, far: f32) {
-        for frame in 1..=8 {
-            let share = far * frame as f32 / 8.0;
+    /// The tips go on their ways to a share of them, and turn. Each worm has a pose of its own.
+    fn drag(&mut self, shares: impl IntoIterator<Item = f32>) {
+        for share in shares {
             for (tip, way) in self.tips.into_iter().zip([Vec3::new(-0.5, -0.5, 0.8), Vec3::new(0.7, -0.8, 0.3)]) {
                 let mut transform = self.app.world_mut().get_mut::<Transform>(tip).unwrap();
                 transform.translation = Vec3::Y * 2.0 + share * way;
@@ -132,6 +131,10 @@ impl Scene {
             }
             self.frames(1);
         }
+    }
+
+    fn pull(&mut self, far: f32) {
+        self.drag((1..=8).map(|frame| far * frame as f32 / 8.0));
         self.settle();
     }
 
@@ -243,6 +246,24 @@ fn the_gpu_draws_what_the_processor_draws() {
     scene.blend(false);
     assert!(!scene.drawn_by_gpu(0) && !scene.drawn_by_gpu(1));
     same("processor and GPU, another pose", &scene.draw("cpu_other"), &drawn);
+}
+
+#[test]
+fn a_rotation_that_was_just_freed_is_drawn_with_its_offset() {
+    let (mut processor, mut gpu) = (Scene::new(false), Scene::new(false));
+    gpu.blend(true);
+    for scene in [&mut processor, &mut gpu] {
+        // both worms are pulled far, and then their tips are freed
+        scene.pull(1.0);
+        for tip in scene.tips {
+            scene.app.world_mut().entity_mut(tip).insert(HandleRotation::Free);
+        }
+        scene.settle();
+        scene.drag([1.02]);
+    }
+    // normals leave the offset out; without it in the positions the picture is off by 0.9 levels and 1.3 % of the pixels
+    let (mean, share) = apart_by("a fading offset", &gpu.draw("gpu_offset"), &processor.draw("cpu_offset"));
+    assert!(mean < 0.3 && share < 3e-3, "{mean} levels, {share} of the pixels");
 }
 
 #[test]
