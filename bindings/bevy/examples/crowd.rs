@@ -96,7 +96,7 @@ fn crowd(model: &str, count: &str, out: &str, gpu: bool) -> Result<(), String> {
     }
     let (camera, image) = stage(&mut app, &creatures).map_err(|error| error.to_string())?;
 
-    let (mut posing, mut whole) = (vec![], vec![]);
+    let (mut solving, mut posing, mut whole) = (vec![], vec![], vec![]);
     for frame in 0..FRAMES {
         let begin = Instant::now();
         app.update();
@@ -104,13 +104,16 @@ fn crowd(model: &str, count: &str, out: &str, gpu: bool) -> Result<(), String> {
             // the first frames make buffers
             whole.push(begin.elapsed());
             posing.push(app.world().resource::<Posing>().1);
+            solving.push(creatures.iter().map(|&creature| app.world().get::<DeformedMesh>(creature).unwrap().took().1).sum());
         }
     }
     let first = app.world().get::<DeformedMesh>(creatures[0]).unwrap();
     let (vertices, handles) = (first.rest().len(), first.handle_count());
     let by = if gpu { "the GPU" } else { "the processor" };
     println!("{count} creatures of {vertices} vertices and {handles} handles; vertices by {by}");
-    for (what, mut times) in [("in DeformSystems", posing), ("in all, without drawing", whole)] {
+    for (what, mut times) in
+        [("of solves, added up over threads", solving), ("in DeformSystems", posing), ("in all, without drawing", whole)]
+    {
         times.sort();
         let ms = |time: Duration| 1e3 * time.as_secs_f64();
         println!("a frame: {:.1} ms {what} (worst {:.1})", ms(times[times.len() / 2]), ms(*times.last().unwrap()));

@@ -292,7 +292,9 @@ impl DeformedMesh {
     #[cfg(feature = "gpu")]
     fn solve_blend(&mut self, moved: &mut bool, options: &hf::DeformOptions, begin: Instant) -> Option<bool> {
         let was_blend = self.shows == Shows::Blend;
-        let wanted = self.blend.is_some() && self.pose.handle_count() > 0 && options.refine == 0 && self.pose.blend_info().is_ok();
+        let asked = self.blend.is_some() && self.pose.handle_count() > 0 && options.refine == 0;
+        // a pose that was a blend says below that it is none now
+        let wanted = asked && (was_blend || self.pose.blend_info().is_ok());
         if wanted && was_blend && !*moved && self.settled {
             self.blend.as_mut()?.stand();
             return Some(false);
