@@ -95,6 +95,7 @@ fn crowd(model: &str, count: &str, out: &str, gpu: bool) -> Result<(), String> {
         }
     }
     let (camera, image) = stage(&mut app, &creatures).map_err(|error| error.to_string())?;
+    app.insert_resource(Frame(0));
 
     let (mut solving, mut posing, mut whole) = (vec![], vec![], vec![]);
     for frame in 0..FRAMES {
@@ -151,7 +152,7 @@ fn stage(app: &mut App, creatures: &[Entity]) -> hf_bevy::hf::Result<(Entity, Ha
     }
     let image = Image::new_target_texture(1200, 800, TextureFormat::Rgba8UnormSrgb, None);
     let image = world.resource_mut::<Assets<Image>>().add(image);
-    let eye = Transform::from_translation(Vec3::new(0.5, 0.6, 0.8) * size * (side + 1.0)).looking_at(Vec3::ZERO, Vec3::Y);
+    let eye = Transform::from_translation(Vec3::new(0.5, 0.7, 0.9) * size * (side + 1.0)).looking_at(Vec3::ZERO, Vec3::Y);
     let lens = PerspectiveProjection { near: 0.05 * size, far: 10.0 * size * side, ..default() };
     let camera = (Camera3d::default(), Camera { is_active: false, ..default() }, Projection::Perspective(lens), Tonemapping::None);
     let camera =
