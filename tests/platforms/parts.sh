@@ -179,7 +179,7 @@ test_web() {
     HF_WEB_MODULES="$hf_root/build/web/node_modules" node "$hf_root/tests/web/web_test.mjs" all "$hf_root/build/web/apps"
 }
 
-# The Bevy layer: its tests without a renderer, its README, and the demo drawn without a window, by the processor where there is
+# The Bevy layer: its tests, with a renderer and without, its README, and the examples drawn without a window, by the processor where there is
 # no graphics card. The crates of the engine compile once.
 test_bevy() {
   local crate="$hf_root/bindings/bevy" log="$hf_root/build/bevy.log" pictures="$hf_root/build/bevy/pictures" version passed failed
@@ -196,23 +196,27 @@ test_bevy() {
   export HF_LIBRARY_DIR="$hf_root/build/dev/src" XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-$pictures}" LD_LIBRARY_PATH="$hf_root/build/dev/src"
   "$hf_root/build/dev/bin/hf_make_assets" "$pictures" --vertices 20000 --creature horse >/dev/null || return 1
   hf_say "building Bevy (some minutes the first time)"
-  (cd "$crate" && cargo build --tests --examples) >>"$log" 2>&1 || {
+  (cd "$crate" && cargo build --example demo && cargo build --tests --examples --features gpu) >>"$log" 2>&1 || {
     grep -A8 '^error' "$log" | head -40 >&2
     hf_say "the build of the Bevy layer failed; the log is build/bevy.log"
     return 1
   }
   hf_say "testing (bevy)"
   log="$hf_root/build/bevy.tests"
-  (cd "$crate" && cargo test --no-fail-fast 2>&1) | tee "$log" | grep -E '^test .* FAILED$|panicked at|^error'
+  (cd "$crate" && HF_PICTURES="$pictures" cargo test --features gpu --no-fail-fast 2>&1) | tee "$log" | grep -E '^test .* FAILED$|panicked at|^error'
   passed=$(grep -cE '^test .* ok$' "$log")
   failed=$(grep -cE '^test .* FAILED$' "$log")
   grep -qE '^test result: ' "$log" || failed=$((failed + 1))
-  if (cd "$crate" && cargo run --quiet --example demo -- "$pictures/horse.glb" "$pictures/horse") 2>&1 | tee -a "$log" && [ "${PIPESTATUS[0]}" -eq 0 ]; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    hf_say "failed: the demo"
-  fi
+  local example
+  for example in "demo -- $pictures/horse.glb $pictures/horse" "crowd -- $pictures/horse.glb 9 $pictures/crowd"; do
+    # shellcheck disable=SC2086 # words
+    if (cd "$crate" && cargo run --quiet --features gpu --example $example) 2>&1 | tee -a "$log" && [ "${PIPESTATUS[0]}" -eq 0 ]; then
+      passed=$((passed + 1))
+    else
+      failed=$((failed + 1))
+      hf_say "failed: the example ${example%% *}"
+    fi
+  done
   printf 'bevy: %s passed, %s failed\n' "$passed" "$failed"
   [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ] || {
     hf_say "what failed is in build/bevy.tests"

@@ -145,6 +145,7 @@ impl Below<'_, '_> {
             triangles: Some(&soup.triangles),
             joints: Some(&soup.influences),
             weights: Some(&soup.weights),
+            ..default()
         };
         let options = hf::SkeletonOptions { skin: Some(skin), ..default() };
         let made = (!parents.is_empty()).then(|| hf::Skeleton::new(Some(&names), &parents, &rest, &options))?;

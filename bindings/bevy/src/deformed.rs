@@ -1,5 +1,7 @@
 //! The state of a bound deformer: its surface, its pose, and the meshes that it writes.
 use crate::bind::{Joints, refuse};
+#[cfg(feature = "gpu")]
+use crate::blend::Blend;
 use crate::shading::Shading;
 use crate::{DeformHandle, HandleLimb, HandleRegion, HandleRotation, Wanted};
 use bevy::ecs::entity::EntityHashMap;
@@ -81,6 +83,9 @@ impl Grip {
 enum Shows {
     Rest,
     Pose,
+    /// the meshes are at rest, and the GPU moves them
+    #[cfg(feature = "gpu")]
+    Blend,
 }
 
 /// The surface of a [`Deformer`](crate::Deformer), its pose and its posed vertices. The plugin makes it.
@@ -107,6 +112,9 @@ pub struct DeformedMesh {
     posing: Duration,
     took: Duration,
     joints: Option<Joints>,
+    /// the GPU blends the vertices where it can
+    #[cfg(feature = "gpu")]
+    pub(crate) blend: Option<Blend>,
 }
 
 impl DeformedMesh {
@@ -137,6 +145,8 @@ impl DeformedMesh {
             posing: Duration::ZERO,
             took: Duration::ZERO,
             joints,
+            #[cfg(feature = "gpu")]
+            blend: None,
         }
     }
 
@@ -150,7 +160,7 @@ impl DeformedMesh {
         self.rest.as_chunks().0
     }
 
-    /// Positions of the last frame.
+    /// Positions of the last frame. With a `GpuBlend` the processor does not write them: see `blend_posed`.
     pub fn posed(&self) -> &[[f32; 3]] {
         self.posed.as_chunks().0
     }
@@ -233,6 +243,10 @@ impl DeformedMesh {
             }
         }
         moved |= self.place(wanted);
+        #[cfg(feature = "gpu")]
+        if let Some(changed) = self.solve_blend(&mut moved, options, begin) {
+            return changed;
+        }
         if self.pose.handle_count() == 0 {
             if self.shows == Shows::Rest {
                 return false;
@@ -260,6 +274,44 @@ impl DeformedMesh {
         }
         self.posing = begin.elapsed();
         true
+    }
+
+    /// Computes the positions of this frame as the GPU does, for [`posed`](Self::posed) and [`pick`](Self::pick).
+    #[cfg(feature = "gpu")]
+    pub fn blend_posed(&mut self) -> hf::Result<()> {
+        if self.shows == Shows::Blend { crate::blend::positions(&self.pose, self.posed.as_chunks_mut().0) } else { Ok(()) }
+    }
+
+    /// From the next frame on the GPU blends the vertices, or no longer.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn set_blend(&mut self, blend: Option<Blend>) {
+        (self.blend, self.settled) = (blend, false);
+    }
+
+    /// As [`DeformedMesh::pose`], where the GPU blends. `None`: the processor has to pose.
+    #[cfg(feature = "gpu")]
+    fn solve_blend(&mut self, moved: &mut bool, options: &hf::DeformOptions, begin: Instant) -> Option<bool> {
+        let was_blend = self.shows == Shows::Blend;
+        let asked = self.blend.is_some() && self.pose.handle_count() > 0 && options.refine == 0;
+        // a pose that was a blend says below that it is none now
+        let wanted = asked && (was_blend || self.pose.blend_info().is_ok());
+        if wanted && was_blend && !*moved && self.settled {
+            self.blend.as_mut()?.stand();
+            return Some(false);
+        }
+        if wanted
+            && let Ok(info) = self.pose.solve(options.iteration_count, options.restart)
+            && self.blend.as_mut()?.take(&self.pose).is_ok()
+        {
+            // the meshes hold the rest shape from now on
+            self.behind = self.shows == Shows::Pose;
+            (self.shows, self.settled) = (Shows::Blend, info.last_change < SETTLED);
+            (self.solved, self.posing, self.took) = (begin.elapsed(), begin.elapsed(), begin.elapsed());
+            return Some(true);
+        }
+        self.blend.iter_mut().for_each(Blend::stop);
+        *moved |= was_blend;
+        None
     }
 
     /// Removes handles that are gone or that are others now.
@@ -305,7 +357,7 @@ impl DeformedMesh {
         let mut options = hf::HandlesOptions { layer: batch[0].handle.layer, ..default() };
         let regions: Vec<&[u32]> = batch.iter().filter_map(|wanted| wanted.region.as_ref()).map(|region| &region.0[..]).collect();
         if regions.is_empty() {
-            (options.points, options.radii) = (Some(&points), Some(&radii));
+            (options.points, options.radii) = (Some(&points[..]), Some(&radii[..]));
         }
         let numbers = self.pose.add_handles((!regions.is_empty()).then_some(&regions[..]), &options)?;
         for (wanted, number) in batch.iter().zip(numbers) {
@@ -371,7 +423,7 @@ impl DeformedMesh {
             let (posed, normals) = (&posed[part.vertices.clone()], &normals[part.vertices.clone()]);
             let Ok(VertexAttributeValues::Float32x3(out)) = mesh.try_attribute_mut(Mesh::ATTRIBUTE_POSITION) else { continue };
             match (&self.shows, &part.into_mesh) {
-                (Shows::Rest, _) => out.copy_from_slice(&part.rest_positions),
+                (shows, _) if *shows != Shows::Pose => out.copy_from_slice(&part.rest_positions),
                 (_, None) => out.copy_from_slice(posed),
                 (_, Some(into)) => {
                     for (out, p) in out.iter_mut().zip(posed) {
@@ -381,7 +433,7 @@ impl DeformedMesh {
             }
             let Ok(VertexAttributeValues::Float32x3(out)) = mesh.try_attribute_mut(Mesh::ATTRIBUTE_NORMAL) else { continue };
             match (&self.shows, &part.into_mesh) {
-                (Shows::Rest, _) => out.copy_from_slice(&part.rest_normals),
+                (shows, _) if *shows != Shows::Pose => out.copy_from_slice(&part.rest_normals),
                 (_, None) => out.copy_from_slice(normals),
                 (_, Some(into)) => {
                     // normals turn by the inverse transpose of what moves points
@@ -393,7 +445,7 @@ impl DeformedMesh {
             }
             let Some(rest) = &part.rest_tangents else { continue };
             let Ok(VertexAttributeValues::Float32x4(out)) = mesh.try_attribute_mut(Mesh::ATTRIBUTE_TANGENT) else { continue };
-            if self.shows == Shows::Rest {
+            if self.shows != Shows::Pose {
                 out.copy_from_slice(rest);
                 continue;
             }

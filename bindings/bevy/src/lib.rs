@@ -2,11 +2,17 @@
 #![warn(missing_docs)]
 #![allow(clippy::type_complexity)] // queries are long types
 mod bind;
+#[cfg(feature = "gpu")]
+mod blend;
 mod deformed;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod retarget;
 mod shading;
 
 pub use crate::deformed::DeformedMesh;
+#[cfg(feature = "gpu")]
+pub use crate::gpu::{BlendMaterial, Blended, GpuBlend, GpuBlendPlugin};
 pub use crate::retarget::{Retarget, RetargetPlugin, Retargeted};
 pub use hf;
 
