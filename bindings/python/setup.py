@@ -13,6 +13,8 @@ NAMES = {".so": "libhf.so", ".dll": "hf.dll", ".dylib": "libhf.dylib"}
 
 class WithLibrary(build_py):
     def run(self):
+        for name in NAMES.values():  # of an install before this one
+            pathlib.Path(self.build_lib, "hf", name).unlink(missing_ok=True)
         super().run()
         if getattr(self, "editable_mode", False):  # the sources are used where they are
             return

@@ -301,12 +301,25 @@ class Session:
             share = self.standing.share(given, self.free)
             sent = self.standing.shifted(given, share, self.free)
         self.pose.set_matrices([self.numbers[i] for i in found], sent)
-        self.pose.deform(self.posed, info=self.info, refine=self.steps())
+        iterations = standing.SETTLING if self.jumps(given) else 0
+        self.pose.deform(self.posed, info=self.info, iteration_count=iterations, refine=self.steps())
         if share > 0:
             self.posed[:] = self.posed + share * self.standing.offset
         else:
             self.standing = None
         standing.keep(self, found, matrices, sent)
+
+
+    def jumps(self, given):
+        """Whether a handle goes far at once, as by a typed distance. Such a pose is solved to its end; else the frames after
+        it would go on moving the mesh. A drag comes in small steps and settles on its way."""
+        far = standing.JUMP * (self.surface.report.bounding_box_diagonal or 1.0)
+        for i, motion in given.items():
+            step = motion - self.placed.get(i, IDENTITY)
+            way = step @ np.append(self.pose.handle(self.numbers[i]).centroid, 1)
+            if np.linalg.norm(way[:3]) > far or np.abs(step[:3, :3]).max() > standing.TURN_JUMP:
+                return True
+        return False
 
 
 def forget_removed():

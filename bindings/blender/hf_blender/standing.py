@@ -19,6 +19,9 @@ REACH, TURN_SHARE = 0.05, 0.25
 # Iterations of the first solve, which has no drag before it: it then differs from the shown arm of a mannequin by 0.3 to 1.5 mm.
 # Half of it is as near, with 10 it is 10 mm; double changes nothing.
 SETTLING = 50
+# A handle that goes this share of the box, or turns so far in radians, between two solves has jumped: a drag moves less in an
+# event.
+JUMP, TURN_JUMP = 0.01, 0.1
 
 
 def motion_found(pose, number, matrix):
