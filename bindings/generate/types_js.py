@@ -62,12 +62,23 @@ class Types:
             returns = results[0][1] + " & { " + "; ".join(f"{n}: {h}" for n, h in results[1:] + extra) + " }"
         else:
             returns = results[0][1] if len(results + extra) == 1 else "{ " + "; ".join(f"{n}: {h}" for n, h in results + extra) + " }"
-        generic = "<T extends Floats = Float32Array>" if self.both else ""
         name = js(m.title())
         lines = self.doc(method_words(plan, "Throws", js), 2)
         if m.is_property():
             return lines + [f"  readonly {name}: {returns};"]
-        return lines + fold(f"{name}{generic}({', '.join(parts)}): {returns};", 2)
+        if not self.both:
+            return lines + fold(f"{name}({', '.join(parts)}): {returns};", 2)
+        # `out` tells the type of the result; without it Type does, and without both it is Float32Array
+        out = parts.index("out?: T | null")
+        ahead = [part.replace("?:", ":", 1) + " | undefined" if "?:" in part else part for part in parts[:out]]
+        behind = [part.replace("Type?: FloatsType; ", "").replace("; Type?: FloatsType", "").replace("Type?: FloatsType", "") for part in parts[out + 1:]]
+        double = [part.replace("options?:", "options:").replace("Type?: FloatsType", "Type: Float64ArrayConstructor") for part in parts[out + 1:]]
+        single = [part.replace("Type?: FloatsType", "Type?: Float32ArrayConstructor") for part in parts[out + 1:]]
+        result = lambda T: re.sub(r"\bT\b", T, returns)
+        for generic, own, given in (("", parts[:out] + ["out?: null"] + single, "Float32Array"), ("", ahead + ["out: null | undefined"] + double, "Float64Array"),
+                                    ("<T extends Floats>", ahead + ["out: T | null | undefined"] + behind, "T")):
+            lines += fold(f"{name}{generic}({', '.join(own)}): {result(given)};".replace("options?: {  }", "options?: {}"), 2)
+        return lines
 
     def types(self):
         out = [TYPES]

@@ -37,7 +37,7 @@ export async function loadBackend(kind) {
   const bytes = readFileSync(join(folder, 'hf.wasm'));
   console.log(`hf.wasm: ${(bytes.length / 1e6).toFixed(2)} MB`);
   // skeletons, retargets and following are 0.26 MB of it, edits 0.07; the slim build has neither
-  assert.ok(bytes.length < 2.48e6, 'the wasm file is to stay below 2.48 MB');
+  assert.ok(bytes.length < 2.49e6, 'the wasm file is to stay below 2.49 MB');
   const { default: factory } = await import(pathToFileURL(join(folder, 'hf.mjs')));
   return { api: await apiOf(factory, bytes), backend: null };
 }

@@ -1769,7 +1769,9 @@ export interface Solver extends Recorded {
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.
    */
-  solve<T extends Floats = Float32Array>(out?: T | null, options?: { Type?: FloatsType }): T;
+  solve(out?: null, options?: { Type?: Float32ArrayConstructor }): Float32Array;
+  solve(out: null | undefined, options: { Type: Float64ArrayConstructor }): Float64Array;
+  solve<T extends Floats>(out: T | null | undefined, options?: {}): T;
   /**
    * Solves for the field at chosen vertices only, with the same bits as Solver.solve in double. The call reads
    * only those columns of the factor on which these vertices depend (elimination paths), on the calling thread.
@@ -1793,8 +1795,10 @@ export interface Solver extends Recorded {
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.
    */
-  solveVectors<T extends Floats = Float32Array>(out?: T | null,
-          options?: { Type?: FloatsType; normals?: Float64Array | null }): T;
+  solveVectors(out?: null, options?: { Type?: Float32ArrayConstructor; normals?: Float64Array | null }): Float32Array;
+  solveVectors(out: null | undefined,
+          options: { Type: Float64ArrayConstructor; normals?: Float64Array | null }): Float64Array;
+  solveVectors<T extends Floats>(out: T | null | undefined, options?: { normals?: Float64Array | null }): T;
   /**
    * Solves with a single-precision copy of the factor. This reads half the bytes of Solver.solve; use it while the
    * user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic
@@ -1814,8 +1818,10 @@ export interface Solver extends Recorded {
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.
    */
-  solvePreview<T extends Floats = Float32Array>(out?: T | null,
-          options?: { correctionCount?: number; Type?: FloatsType }): T;
+  solvePreview(out?: null, options?: { correctionCount?: number; Type?: Float32ArrayConstructor }): Float32Array;
+  solvePreview(out: null | undefined,
+          options: { correctionCount?: number; Type: Float64ArrayConstructor }): Float64Array;
+  solvePreview<T extends Floats>(out: T | null | undefined, options?: { correctionCount?: number }): T;
   /**
    * Frees the single-precision copy for all solvers that share it, as soon as no running call uses it. The next
    * preview makes the copy again.
@@ -1901,7 +1907,9 @@ export interface Geodesics extends Handle {
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
-  solve<T extends Floats = Float32Array>(sources: Rows, out?: T | null, options?: { Type?: FloatsType }): T;
+  solve(sources: Rows, out?: null, options?: { Type?: Float32ArrayConstructor }): Float32Array;
+  solve(sources: Rows, out: null | undefined, options: { Type: Float64ArrayConstructor }): Float64Array;
+  solve<T extends Floats>(sources: Rows, out: T | null | undefined, options?: {}): T;
   /**
    * Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If
    * several are as short, it writes one of them. The path is straight where its triangles are unfolded; it bends
@@ -2007,7 +2015,9 @@ export interface Direction extends Recorded {
    *
    * Throws HF_ERROR_EMPTY.
    */
-  solve<T extends Floats = Float32Array>(out?: T | null, options?: { Type?: FloatsType }): T;
+  solve(out?: null, options?: { Type?: Float32ArrayConstructor }): Float32Array;
+  solve(out: null | undefined, options: { Type: Float64ArrayConstructor }): Float64Array;
+  solve<T extends Floats>(out: T | null | undefined, options?: {}): T;
   /**
    * Lists the singularities of the field, ordered by triangle (Crane, Desbrun and Schroeder 2010, Section 5). On a
    * closed manifold component of one orientation the indices sum to degree times the Euler characteristic.
@@ -2213,7 +2223,9 @@ export interface Pose extends Recorded {
    *
    * Throws HF_ERROR_NOT_FOUND.
    */
-  field<T extends Floats = Float32Array>(handle: number, out?: T | null, options?: { Type?: FloatsType }): T;
+  field(handle: number, out?: null, options?: { Type?: Float32ArrayConstructor }): Float32Array;
+  field(handle: number, out: null | undefined, options: { Type: Float64ArrayConstructor }): Float64Array;
+  field<T extends Floats>(handle: number, out: T | null | undefined, options?: {}): T;
   /**
    * Does the same as Pose.deform, with the options of a desc.
    *
@@ -2236,8 +2248,12 @@ export interface Pose extends Recorded {
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
-  deform<T extends Floats = Float32Array>(out?: T | null,
-          options?: { iterationCount?: number; restart?: boolean | number; refine?: number; refineFromLast?: boolean | number; firstVertex?: number; vertexCount?: number; Type?: FloatsType; normals?: Float32Array | null }): T;
+  deform(out?: null,
+          options?: { iterationCount?: number; restart?: boolean | number; refine?: number; refineFromLast?: boolean | number; firstVertex?: number; vertexCount?: number; Type?: Float32ArrayConstructor; normals?: Float32Array | null }): Float32Array;
+  deform(out: null | undefined,
+          options: { iterationCount?: number; restart?: boolean | number; refine?: number; refineFromLast?: boolean | number; firstVertex?: number; vertexCount?: number; Type: Float64ArrayConstructor; normals?: Float32Array | null }): Float64Array;
+  deform<T extends Floats>(out: T | null | undefined,
+          options?: { iterationCount?: number; restart?: boolean | number; refine?: number; refineFromLast?: boolean | number; firstVertex?: number; vertexCount?: number; normals?: Float32Array | null }): T;
   /** Writes the statistics of a pose. */
   readonly statistics: PoseStatistics;
   /**
@@ -2493,8 +2509,12 @@ export interface Region extends Recorded {
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
-  morph<T extends Floats = Float32Array>(weight?: number, out?: T | null,
-          options?: { Type?: FloatsType; normals?: Float32Array | null }): T;
+  morph(weight?: number, out?: null,
+          options?: { Type?: Float32ArrayConstructor; normals?: Float32Array | null }): Float32Array;
+  morph(weight: number | undefined, out: null | undefined,
+          options: { Type: Float64ArrayConstructor; normals?: Float32Array | null }): Float64Array;
+  morph<T extends Floats>(weight: number | undefined, out: T | null | undefined,
+          options?: { normals?: Float32Array | null }): T;
 }
 export interface RegionClass {
   new (surface: Surface, options?: { positions?: Rows | null; base?: number; progress?: Progress | null }): Region;
@@ -2532,8 +2552,12 @@ export interface Detail extends Handle {
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
-  morph<T extends Floats = Float32Array>(weight?: number, out?: T | null,
-          options?: { Type?: FloatsType; normals?: Float32Array | null }): T;
+  morph(weight?: number, out?: null,
+          options?: { Type?: Float32ArrayConstructor; normals?: Float32Array | null }): Float32Array;
+  morph(weight: number | undefined, out: null | undefined,
+          options: { Type: Float64ArrayConstructor; normals?: Float32Array | null }): Float64Array;
+  morph<T extends Floats>(weight: number | undefined, out: T | null | undefined,
+          options?: { normals?: Float32Array | null }): T;
 }
 export interface DetailClass {
   new (source: Region, target: Region,
@@ -2766,8 +2790,12 @@ export interface Transfer extends Handle {
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE,
    * HF_ERROR_UNSUPPORTED.
    */
-  apply<T extends Floats = Float32Array>(sourcePositions?: Rows | null, out?: T | null,
-          options?: { holdPairs?: Rows | null; holdPositions?: Rows | null; Type?: FloatsType; targetNormals?: Float32Array | null }): T;
+  apply(sourcePositions?: Rows | null, out?: null,
+          options?: { holdPairs?: Rows | null; holdPositions?: Rows | null; Type?: Float32ArrayConstructor; targetNormals?: Float32Array | null }): Float32Array;
+  apply(sourcePositions: Rows | null | undefined, out: null | undefined,
+          options: { holdPairs?: Rows | null; holdPositions?: Rows | null; Type: Float64ArrayConstructor; targetNormals?: Float32Array | null }): Float64Array;
+  apply<T extends Floats>(sourcePositions: Rows | null | undefined, out: T | null | undefined,
+          options?: { holdPairs?: Rows | null; holdPositions?: Rows | null; targetNormals?: Float32Array | null }): T;
   /**
    * Writes which target vertices may sink into the ground.
    *
