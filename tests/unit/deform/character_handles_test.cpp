@@ -441,6 +441,20 @@ TEST(CharacterHandles, AHeadWithoutANeckDrawsOutTheUpperPartOfTheTrunk) {
 }
 
 // A knot of the tail is a piece of its own, with two ends.
+// Joints of the head are ends that move nothing: the neck moves the skull.
+TEST(CharacterHandles, ANeckThatMovesTheHeadIsItsJoint) {
+  Host host("biped");
+  const uint32_t neck = host.joint("neck"), head = host.joint("head");
+  for (uint32_t& j : host.joints) j = host.is_below(j, head) ? neck : j;
+  const Found found = propose(host);
+  const uint32_t skull = found.of_role(HF_ROLE_HEAD, HF_SIDE_MIDDLE);
+  ASSERT_NE(skull, HF_NO_INDEX);
+  EXPECT_EQ(found.list[skull].joint, neck);
+  EXPECT_EQ(found.list[skull].pinned, 0);
+  for (uint32_t v = 0; v < host.vertex_count(); ++v)
+    EXPECT_EQ(found.regions[v] == skull, host.weight(v, {neck}) > 0.5) << v;
+}
+
 TEST(CharacterHandles, ATailHasOneHandleAtItsEnd) {
   Host host("horse");
   host.add_box({0, 0.9f, -1.4f}, 0.2f, host.joint("tail_2"));
