@@ -27,8 +27,8 @@ constexpr double standing = 0.06;
 constexpr double branching = 0.5;
 // The foot of a leg is its last joint below this share of the height of the hip.
 constexpr double ankle_height = 0.5;
-// A joint on the way to the head that lies lower than the shoulders by more than this share of the height is no neck. On
-// 47 upright bodies each neck lies above them, and the chest of a man of boxes lies .14 below.
+// A joint on the way to the head that lies lower than the shoulders by more than this share of the height is no neck.
+// On 47 upright bodies each neck lies above them, and the chest of a man of boxes lies .14 below.
 constexpr double below_shoulders = 0.1;
 // The trunk is upright above this cosine of hips to head against up.
 constexpr double upright_trunk = 0.6;
