@@ -71,6 +71,7 @@ MovedParts::MovedParts(const surface::Core& core, const skeleton::KnownSkeleton&
       moved_(&memory_) {
   read_roles();
   read_chains();
+  take_necks();
   find_unmoved();
   find_vertices();
   find_beside();
@@ -143,6 +144,34 @@ void MovedParts::read_chains() {
     std::int32_t chain = character.joint_chains[j];
     if (chain < 0 && carrier >= 0) chain = character.joint_chains[at(carrier)];
     if (chain >= 0) joint_part_[j] = part[at(chain)];
+  }
+}
+
+// A head whose joints have most of no vertex is moved by its neck: an end joint says where the head ends.
+void MovedParts::take_necks() {
+  Vector<std::uint8_t> moves(order_.size(), 0, &memory_);
+  for (std::int32_t v = 0; v < core_.size(); ++v) {
+    double most = 0;
+    std::uint32_t heaviest = no_joint;
+    for_joints(v, [&](std::uint32_t j, double weight) {
+      if (weight > most) heaviest = j;
+      most = std::max(most, weight);
+    });
+    if (heaviest != no_joint) moves[heaviest] = 1;
+  }
+  const skeleton::Character& character = known_.character;
+  const auto is_head = [&](std::int32_t part) { return part >= 0 && part_role_[at(part)] == skeleton::Role::head; };
+  for (std::size_t j = 0; j < moves.size(); ++j) {
+    if (moves[j] && is_head(joint_part_[j])) return;
+  }
+  for (std::size_t j = 0; j < moves.size(); ++j) {
+    if (character.roles[j] != skeleton::Role::head) continue;
+    std::int32_t neck = known_.parents[j];
+    while (neck >= 0 && !moves[at(neck)]) neck = known_.parents[at(neck)];
+    if (neck < 0 || character.roles[at(neck)] != skeleton::Role::neck || is_head(joint_part_[at(neck)])) continue;
+    joint_part_[at(neck)] = static_cast<std::int32_t>(part_role_.size());
+    part_role_.push_back(skeleton::Role::head);
+    part_joint_.push_back(static_cast<std::uint32_t>(neck));
   }
 }
 

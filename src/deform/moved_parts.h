@@ -82,6 +82,7 @@ class MovedParts {
  private:
   void read_roles();
   void read_chains();
+  void take_necks();
   void find_unmoved();
   void find_vertices();
   void find_beside();

@@ -32,6 +32,9 @@ constexpr double ankle_height = 0.5;
 constexpr double hip_stub = 0.15, level_bone = 0.35;
 // Feet so far from the box of the surface are not under it: a robe ends at half of it.
 constexpr double far_from_surface = 0.25;
+// A joint on the way to the head that lies lower than the shoulders by more than this share of the height is no neck.
+// On 47 upright bodies each neck lies above them, and the chest of a man of boxes lies .14 below.
+constexpr double below_shoulders = 0.1;
 // The trunk is upright above this cosine of hips to head against up.
 constexpr double upright_trunk = 0.6;
 // A clip that leads less far leads nowhere.

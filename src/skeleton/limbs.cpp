@@ -15,7 +15,8 @@ class ClassCount {
     ++counts_[static_cast<std::size_t>(c)];
     ++all_;
   }
-  NameClass most(NameClass root) noexcept {
+  // collar: the root has the name of a shoulder, which wings have too.
+  NameClass most(NameClass root, bool collar = false) noexcept {
     counts_[0] = 0;
     std::size_t& loose = counts_[static_cast<std::size_t>(NameClass::loose)];
     if (2 * loose < all_) loose = 0;
@@ -25,6 +26,7 @@ class ClassCount {
     }
     if (counts_[best] == 0) best = counts_[1] > 0 ? 1 : 0;
     const std::size_t r = static_cast<std::size_t>(root);
+    if (collar && best == static_cast<std::size_t>(NameClass::wing)) return NameClass::wing;
     const bool strong = root == NameClass::leg || root == NameClass::arm || root == NameClass::wing;
     return static_cast<NameClass>(strong && 2 * counts_[r] >= counts_[best] ? r : best);
   }
@@ -129,7 +131,8 @@ NameClass class_of_paths(const Body& body, const Limb& limb) {
   for (const auto& path : limb.paths) {
     for (const Index j : path) count.add(body.names[at(j)].named);
   }
-  const NameClass found = count.most(body.names[at(limb.roots[0])].named);
+  const JointName& root = body.names[at(limb.roots[0])];
+  const NameClass found = count.most(root.named, root.collar);
   return found == NameClass::none ? limb.named : found;
 }
 

@@ -183,6 +183,17 @@ std::size_t nearest_below_head(const Body& body, const Vector<Index>& path, Inde
   return body.head == carrier || aside ? 0 : nearest;
 }
 
+// Arms of an upright body may hang on a control at its hips. The joints above it that lie far below the shoulders carry
+// the trunk, and are no neck. Returns the last one in the path to the head, or the carrier.
+std::size_t last_below_arms(const Body& body, const Vector<Index>& path, std::size_t carrier, const Limb& limb) {
+  if (!(body.trunk > upright_trunk)) return carrier;
+  const auto height = [&](Index j) { return body.height_of(body.pivots[at(j)]); };
+  const double shoulders = std::min(height(limb.roots[0]), height(limb.roots[1]));
+  std::size_t last = carrier;
+  while (last + 2 < path.size() && height(path[last + 1]) < shoulders - below_shoulders * body.height) ++last;
+  return last;
+}
+
 // From the root of the tree to the head: spine, and neck after the last arm or front leg, or by its name.
 void assign_trunk(Body& body, Vector<std::uint8_t>& given) {
   if (body.head < 0) return;
@@ -196,7 +207,9 @@ void assign_trunk(Body& body, Vector<std::uint8_t>& given) {
   std::size_t chest = 0;
   for (const Limb& limb : body.limbs) {
     const bool fore = limb.role == Role::arm || limb.role == Role::wing || (limb.role == Role::leg && &limb != hind);
-    if (fore) chest = std::max(chest, nearest_below_head(body, path, limb.carrier));
+    if (!fore) continue;
+    const std::size_t carrier = nearest_below_head(body, path, limb.carrier);
+    chest = std::max(chest, limb.role == Role::arm ? last_below_arms(body, path, carrier, limb) : carrier);
   }
   const auto is_neck = [&](Index j) { return body.names[at(j)].named == NameClass::neck; };
   const auto named = std::find_if(path.begin(), path.end(), is_neck);

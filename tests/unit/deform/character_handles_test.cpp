@@ -441,6 +441,31 @@ TEST(CharacterHandles, AHeadWithoutANeckDrawsOutTheUpperPartOfTheTrunk) {
 }
 
 // A knot of the tail is a piece of its own, with two ends.
+// The head has a hundredth of some vertices: the neck moves the skull.
+TEST(CharacterHandles, ANeckThatMovesTheHeadIsItsJoint) {
+  Host host("biped");
+  const uint32_t neck = host.joint("neck"), head = host.joint("head");
+  for (uint32_t v = 0; v < host.vertex_count(); ++v) {
+    size_t most = slots * v, spare = slots * v;
+    for (size_t k = slots * v; k < slots * (v + 1); ++k) {
+      if (host.is_below(host.joints[k], head)) host.joints[k] = neck;
+      if (host.weights[k] > host.weights[most]) most = k;
+      if (host.weights[k] < host.weights[spare]) spare = k;
+    }
+    if (host.joints[most] != neck || host.weights[spare] > 0) continue;
+    host.joints[spare] = head;
+    host.weights[spare] = 0.01f;
+    host.weights[most] -= 0.01f;
+  }
+  const Found found = propose(host);
+  const uint32_t skull = found.of_role(HF_ROLE_HEAD, HF_SIDE_MIDDLE);
+  ASSERT_NE(skull, HF_NO_INDEX);
+  EXPECT_EQ(found.list[skull].joint, neck);
+  EXPECT_EQ(found.list[skull].pinned, 0);
+  for (uint32_t v = 0; v < host.vertex_count(); ++v)
+    EXPECT_EQ(found.regions[v] == skull, host.weight(v, {neck, head}) > 0.5) << v;
+}
+
 TEST(CharacterHandles, ATailHasOneHandleAtItsEnd) {
   Host host("horse");
   host.add_box({0, 0.9f, -1.4f}, 0.2f, host.joint("tail_2"));

@@ -71,6 +71,18 @@ TEST(Quadruped, ATailWithTheNameOfTheSpineIsATail) {
   EXPECT_EQ(placed.faults(found), "") << why(found);
 }
 
+// The wings of a dragon begin with a joint of the name of a shoulder.
+TEST(Bird, AWingWhoseFirstJointIsAShoulderIsAWing) {
+  Rig rig = make_beast("bird", true);
+  for (RigJoint& joint : rig.joints) {
+    if (joint.name.rfind("Wing1", 0) == 0) joint.name = "Shoulder" + joint.name.substr(5);
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
 // A dog whose front legs are shoulder, elbow and foot has no bone more above the elbow.
 TEST(Quadruped, AShoulderAboveElbowAndFootIsTheUpperLeg) {
   Rig rig = make_beast("horse", true);

@@ -441,6 +441,25 @@ TEST(Limbs, APairOnSomethingAsideDoesNotSayWhereTheNeckBegins) {
   EXPECT_EQ(found.roles[static_cast<std::size_t>(neck)], Role::neck) << placed.faults(found);
 }
 
+// A man of boxes: arms and spine hang on one control at the hips.
+TEST(Limbs, WhatLiesFarBelowTheShouldersIsNoNeck) {
+  Rig rig = make_biped("none", {});
+  std::vector<std::size_t> spine;
+  for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+    if (rig.joints[j].role == Role::spine) spine.push_back(j);
+  }
+  ASSERT_GE(spine.size(), 3u);
+  for (RigJoint& joint : rig.joints) {
+    const bool arm = joint.role == Role::arm || joint.role == Role::shoulder;
+    if (arm && joint.parent == static_cast<int>(spine.back())) joint.parent = static_cast<int>(spine.front());
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  for (std::size_t k = 0; k + 1 < spine.size(); ++k)
+    EXPECT_EQ(found.roles[spine[k]], Role::spine) << rig.joints[spine[k]].pivot.y << why(found);
+}
+
 // Every joint of the body is in one chain, after its carrier if that is in the same one; frames are rotations.
 TEST(Chains, HoldEveryJointOnceFromRootToTip) {
   for (const std::string& convention : biped_conventions) {
