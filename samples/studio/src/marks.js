@@ -14,6 +14,7 @@ const BEHIND = 0.03;
 export class Marks {
   #buttons = new Map(); // id -> element
   #timer = 0;
+  #held = null; // the element that a pointer drags
   constructor(app, parent) {
     this.app = app;
     this.parent = parent;
@@ -31,7 +32,8 @@ export class Marks {
         this.#buttons.set(mark.id, element);
         this.parent.append(element);
       }
-      if (this.parent.children[i] !== element) this.parent.insertBefore(element, this.parent.children[i] ?? null);
+      // an element that moves in the document loses its pointer, and the drag would never end
+      if (!this.#held && this.parent.children[i] !== element) this.parent.insertBefore(element, this.parent.children[i] ?? null);
       element.mark = mark;
       seen.add(mark.id);
       element.setAttribute('aria-label', mark.say ? `${mark.say}: ${mark.label}` : mark.label);
@@ -106,6 +108,7 @@ export class Marks {
       this.app.timeline.still(); // what moves stands, and then it is pulled
       element.setPointerCapture(event.pointerId);
       from = { at: here(event), pointer: event.pointerId, dragging: false };
+      this.#held = element;
     };
     element.onpointermove = (event) => {
       if (!from || event.pointerId !== from.pointer) return;
@@ -118,7 +121,7 @@ export class Marks {
     const end = (event) => {
       if (!from || event.pointerId !== from.pointer) return;
       const { dragging } = from;
-      from = null;
+      from = this.#held = null;
       const taken = event.type === 'pointerup';
       // a pointer that the system took has let nothing go
       if (dragging) taken ? this.app.tool.dragEnd?.(element.mark) : this.app.tool.dragCancel?.(element.mark);
