@@ -196,9 +196,9 @@ HF_API hf_result hf_solver_solve(hf_solver solver, const hf_array_out* out_value
  * double[vertex_count][channel_count]. vertices: uint32_t[vertex_count]. The call reads only those columns of the
  * factor on which these vertices depend (elimination paths), on the calling thread. One path is up to a sixth of the
  * factor, but the paths of many vertices share most of their columns. The call costs a whole solve for bi-harmonic
- * fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of a component without a
- * site gets 0. Errors: HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (more vertices than the mesh has), HF_ERROR_OUT_OF_RANGE.
- * Thread safety: reads `solver`. Since 0.1. */
+ * fields, and whenever sites are eliminated in the factor (see hf_solver_prepare_rebase). A vertex of a component
+ * without a site gets 0. Errors: HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (more vertices than the mesh has),
+ * HF_ERROR_OUT_OF_RANGE. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, const uint32_t* vertices,
                                     double* out_values);
 

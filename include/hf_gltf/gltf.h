@@ -112,7 +112,8 @@ typedef struct hf_gltf_surface {
 HF_GLTF_API hf_result hf_gltf_model_get_surface(hf_gltf_model model, const hf_gltf_surface* out_surface);
 
 /* The joints of a model at rest, for hf_skeleton_desc: every node of the file is a joint. Each array can be NULL. Fill
- * a hf_skin_desc with the arrays of hf_gltf_surface, and set its at_rest to 1. */
+ * a hf_skin_desc with the arrays of hf_gltf_surface, positions as float and joints as uint32_t, and set its at_rest
+ * to 1. */
 typedef struct hf_gltf_skeleton {
   uint32_t struct_size;
   uint32_t name_capacity; /* bytes of names; hf_gltf_model_info.name_byte_count are needed */

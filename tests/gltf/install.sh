@@ -14,7 +14,7 @@ cat >"$work/project/CMakeLists.txt" <<TEXT
 cmake_minimum_required(VERSION 3.22)
 project(walk C)
 find_package(hf REQUIRED)
-find_package(hf_gltf REQUIRED)
+find_package(hf_gltf 0.1 REQUIRED)
 add_executable(walk "$source/samples/walk/hf_walk.c")
 target_link_libraries(walk hf::hf hf::hf_gltf m)
 TEXT

@@ -395,4 +395,18 @@ export default async function story(host) {
     assert.deepEqual(other.complaints, []);
     await other.close();
   });
+  await check('each of the proposed dots is dragged, the last one first: it becomes a handle', async () => {
+    const one = await Studio.open(host);
+    const offers = async () => (await one.marks()).filter(({ label }) => label.includes('proposed'));
+    await one.page.evaluate(() => window.hfStudio.timeline.still());
+    await one.settle();
+    const before = Number((await one.facts()).handles);
+    const last = (await offers()).at(-1);
+    assert.ok((await offers()).length > 1);
+    await one.drag(last.x, last.y, 25, -20);
+    assert.equal(Number((await one.facts()).handles), before + 1);
+    assert.equal(await one.page.evaluate(() => window.hfStudio.history.past.length), 1);
+    assert.deepEqual(one.complaints, []);
+    await one.close();
+  });
 }

@@ -3627,7 +3627,7 @@ namespace Hf
         /// reads only those columns of the factor on which these vertices depend (elimination paths), on the
         /// calling thread. One path is up to a sixth of the factor, but the paths of many vertices share most of
         /// their columns. The call costs a whole solve for bi-harmonic fields, and whenever sites are eliminated in
-        /// the factor (see hf_solver_rebase). A vertex of a component without a site gets 0.
+        /// the factor (see Solver.PrepareRebase). A vertex of a component without a site gets 0.
         ///
         /// vertices: [vertexCount].
         ///

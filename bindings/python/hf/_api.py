@@ -2011,7 +2011,7 @@ class Solver(Recorded):
         only those columns of the factor on which these vertices depend (elimination paths), on the calling thread.
         One path is up to a sixth of the factor, but the paths of many vertices share most of their columns. The call
         costs a whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see
-        hf_solver_rebase). A vertex of a component without a site gets 0.
+        Solver.prepare_rebase). A vertex of a component without a site gets 0.
 
         vertices: (vertex_count,).
 

@@ -2508,8 +2508,8 @@ impl Solver {
     /// Solves for the field at chosen vertices only, with the same bits as `Solver::solve` in double. The call reads only
     /// those columns of the factor on which these vertices depend (elimination paths), on the calling thread. One path is
     /// up to a sixth of the factor, but the paths of many vertices share most of their columns. The call costs a whole
-    /// solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of
-    /// a component without a site gets 0.
+    /// solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see `Solver::prepare_rebase`). A
+    /// vertex of a component without a site gets 0.
     ///
     /// vertices: `[vertex_count]`.
     ///
