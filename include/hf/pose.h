@@ -465,8 +465,8 @@ typedef struct hf_handle_proposals_desc {
 } hf_handle_proposals_desc;
 
 /* One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. If a
- * skeleton with known roles is given, out_regions has all vertices of a head, a hand or a foot. Give these vertices to
- * hf_handles_desc. The region of position and radius is then a part of them, which can be too small for a handle. */
+ * skeleton with known roles is given, out_regions has all vertices of a head, a hand or a foot: give these to
+ * hf_handles_desc for the whole part. The region of position and radius is then a part of these vertices. */
 typedef struct hf_handle_proposal {
   uint32_t vertex;    /* nearest to the position; of your mesh, the first of welded copies */
   uint32_t component; /* as hf_surface_get_components */

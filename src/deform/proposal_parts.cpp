@@ -131,23 +131,63 @@ class Chooser {
     return false;
   }
 
-  // Finds a place and a radius whose region is a piece of the part.
+  // Finds a place and a radius whose region is a piece of the part: in the middle, or where that makes a spike, far
+  // from the rim of the part.
   bool fit(std::size_t k, HandleProposal& proposal) {
     const Candidate middle = part_candidate(core_, part(found_[k]));
-    const std::int32_t own = static_cast<std::int32_t>(k);
-    const bool inside = owner_[at(vertex_near(core_, middle.position))] == own;
-    proposal.position = mesh_.to_given(inside ? middle.position : mesh_.positions[at(middle.vertex)]);
-    const Vec3 place = mesh_.to_inner(proposal.position);
-    double radius = middle.length;
+    const bool inside = owner_[at(vertex_near(core_, middle.position))] == static_cast<std::int32_t>(k);
+    // a caller gives the place back in the unit of the mesh
+    const auto given_back = [&](Vec3 p) { return mesh_.to_inner(mesh_.to_given(p)); };
+    const Vec3 place = given_back(inside ? middle.position : mesh_.positions[at(middle.vertex)]);
+    const Vec3 deep = given_back(mesh_.positions[at(deepest(k))]);
+    double radius = radius_within(k, place, middle.length), deep_radius = 0;
+    if (is_spike(search_.near(place, radius), radius)) deep_radius = radius_within(k, deep, middle.length);
+    const bool deeper = deep_radius > radius;
+    if (deeper) radius = deep_radius;
+    if (!(radius > 0)) return false;  // other layers of the surface are at the same place
+    proposal.position = mesh_.to_given(deeper ? deep : place);
+    proposal.radius = mesh_.scale * radius;
+    describe(found_[k], part(found_[k]), proposal);
+    proposal.vertex = vertex_near(core_, mesh_.to_inner(proposal.position));
+    return true;
+  }
+
+  // The largest radius of some, from `radius` down, whose region is of candidate k alone; 0: none.
+  double radius_within(std::size_t k, Vec3 place, double radius) {
+    const auto is_own = [&](std::int32_t v) { return owner_[at(v)] == static_cast<std::int32_t>(k); };
     for (int attempt = 0; attempt < most_attempts; ++attempt, radius /= radius_growth) {
-      proposal.radius = mesh_.scale * radius;
-      const Vector<std::int32_t> region = search_.near(place, proposal.radius / mesh_.scale);
-      if (!std::all_of(region.begin(), region.end(), [&](std::int32_t v) { return owner_[at(v)] == own; })) continue;
-      describe(found_[k], part(found_[k]), proposal);
-      proposal.vertex = vertex_near(core_, place);
-      return true;
+      const double given_back = mesh_.scale * radius / mesh_.scale;
+      const Vector<std::int32_t> region = search_.near(place, given_back);
+      if (std::all_of(region.begin(), region.end(), is_own)) return given_back;
     }
-    return false;  // other layers of the surface are at the same place
+    return 0;
+  }
+
+  // The vertex of a part with the most edges between it and the others.
+  std::int32_t deepest(std::size_t k) const {
+    const mesh::Topology& topology = core_.topology();
+    const Span<const std::int32_t> own = part(found_[k]);
+    Vector<std::uint8_t> seen(owner_.size(), 0, &memory_);
+    Vector<std::int32_t> reached(&memory_);
+    const auto for_neighbours = [&](std::int32_t v, auto&& use) {
+      for (std::int32_t i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i)
+        use(topology.neighbour[at(i)]);
+    };
+    for (const std::int32_t v : own) {
+      bool rim = false;
+      for_neighbours(v, [&](std::int32_t u) { rim = rim || owner_[at(u)] != static_cast<std::int32_t>(k); });
+      if (!rim) continue;
+      seen[at(v)] = 1;
+      reached.push_back(v);
+    }
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      for_neighbours(reached[i], [&](std::int32_t u) {
+        if (seen[at(u)] || owner_[at(u)] != static_cast<std::int32_t>(k)) return;
+        seen[at(u)] = 1;
+        reached.push_back(u);
+      });
+    }
+    return reached.empty() ? own[0] : reached.back();
   }
 
   RegionSearch& search_;

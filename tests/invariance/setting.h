@@ -8,6 +8,7 @@
 
 #include "body.h"
 #include "hf/hf.h"
+#include "support/owned.h"
 
 namespace invariance {
 
@@ -23,23 +24,7 @@ inline void ok(hf_result result) {
   throw Refused(std::string(detail.function) + ": " + detail.message);
 }
 
-// A handle that is destroyed with its owner.
-template <class Handle, void (*destroy)(Handle)>
-class Owned {
- public:
-  Owned() = default;
-  ~Owned() { destroy(handle_); }
-  Owned(Owned&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
-  Owned& operator=(Owned&& other) noexcept {
-    std::swap(handle_, other.handle_);
-    return *this;
-  }
-  operator Handle() const { return handle_; }
-  Handle* out() { return &handle_; }
-
- private:
-  Handle handle_ = nullptr;
-};
+using hf_test::Owned;
 using Surface = Owned<hf_surface, hf_surface_destroy>;
 using Solver = Owned<hf_solver, hf_solver_destroy>;
 

@@ -11,6 +11,7 @@
 #include "edit_host.h"
 #include "hf/hf.h"
 #include "play.h"
+#include "support/owned.h"
 
 namespace edits {
 namespace {
@@ -18,24 +19,9 @@ namespace {
 using play::fail;
 using play::hold;
 
-template <class T, void (*destroy)(T)>
-class Owner {
- public:
-  explicit Owner(T handle = nullptr) : handle_(handle) {}
-  Owner(Owner&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
-  Owner& operator=(Owner&& other) noexcept {
-    std::swap(handle_, other.handle_);
-    return *this;
-  }
-  ~Owner() { destroy(handle_); }
-  T get() const { return handle_; }
-  T* out() { return &handle_; }
-
- private:
-  T handle_;
-};
-using OwnedSurface = Owner<hf_surface, hf_surface_destroy>;
-using OwnedSolver = Owner<hf_solver, hf_solver_destroy>;
+using hf_test::Owned;
+using OwnedSurface = Owned<hf_surface, hf_surface_destroy>;
+using OwnedSolver = Owned<hf_solver, hf_solver_destroy>;
 
 std::vector<hf_link> links_of(hf_surface surface) {
   std::uint32_t count = 0;
@@ -82,7 +68,7 @@ class Player {
     std::shared_ptr<OwnedSurface> surface;
   };
 
-  hf_surface surface() const { return state_.surface->get(); }
+  hf_surface surface() const { return *state_.surface; }
   Host& host() { return state_.host; }
   std::uint32_t any_vertex() { return bytes_.take() * 7u % host().vertex_count(); }
 
@@ -104,7 +90,7 @@ class Player {
     hf_surface_edit_desc edit = HF_INIT(hf_surface_edit_desc);
     edit.vertex_count = host().vertex_count();
     edit.stiffness = s.data();
-    check_definite(hf_surface_edit(made.get(), &edit, stiff.out()), "a fresh stiffness");
+    check_definite(hf_surface_edit(made, &edit, stiff.out()), "a fresh stiffness");
     return stiff;
   }
 
@@ -118,35 +104,11 @@ class Player {
   void step() {
     const unsigned byte = bytes_.take(), kind = byte % 9;
     State before = state_;
-    bool changed = true;
-    switch (kind) {
-      case 0:
-        changed = stroke(byte / 9);
-        break;
-      case 1:
-        changed = refine(byte / 9);
-        break;
-      case 2:
-        changed = remove(byte / 9);
-        break;
-      case 3:
-        changed = fill(byte / 9);
-        break;
-      case 4:
-        changed = replace_vertex();
-        break;
-      case 5:
-        changed = cut(byte / 9);
-        break;
-      case 6:
-        changed = link(byte / 9);
-        break;
-      case 7:
-        changed = unlink();
-        break;
-      default:
-        changed = byte / 9 % 2 ? undo() : change_sites();
-    }
+    using Act = bool (Player::*)(unsigned);
+    constexpr Act acts[] = {&Player::stroke, &Player::refine,         &Player::remove,
+                            &Player::fill,   &Player::replace_vertex, &Player::cut,
+                            &Player::link,   &Player::unlink,         &Player::undo_or_change_sites};
+    const bool changed = (this->*acts[kind])(byte / 9);
     if (!changed) return;
     ++outcome_.done[kind];
     forget_stiffness();
@@ -166,12 +128,12 @@ class Player {
 
   // Takes the solver along. A site at a vertex without a triangle is refused by its number, and goes.
   void move_solver() {
-    while (hf_solver_move_to(solver_.get(), surface()) != HF_OK) {
+    while (hf_solver_move_to(solver_, surface()) != HF_OK) {
       hf_error_detail detail;
       hf_error_get_detail(&detail);
       const auto site = sites_.find(detail.index);
       if (site == sites_.end() || !host().neighbours(site->second.vertex).empty()) fail("hf_solver_move_to");
-      if (hf_remove_sites(solver_.get(), 1, &site->first) != HF_OK) fail("hf_remove_sites");
+      if (hf_remove_sites(solver_, 1, &site->first) != HF_OK) fail("hf_remove_sites");
       sites_.erase(site);
     }
   }
@@ -184,7 +146,7 @@ class Player {
       state_.surface = std::make_shared<OwnedSurface>(std::move(made));
       return true;
     }
-    hold(made.get() == nullptr, "a refused edit wrote a surface");
+    hold(*made.out() == nullptr, "a refused edit wrote a surface");
     if (got == HF_ERROR_NOT_POSITIVE_DEFINITE) check_definite(got, "an edit");
     if (std::find(refusals.begin(), refusals.end(), got) == refusals.end())
       fail(std::string("an edit ended with ") + hf_result_get_name(got));
@@ -275,7 +237,7 @@ class Player {
   }
 
   // The fan of a vertex comes again around a new vertex beside it.
-  bool replace_vertex() {
+  bool replace_vertex(unsigned) {
     const std::uint32_t v = any_vertex();
     std::vector<std::uint32_t> removed;
     std::vector<std::array<std::uint32_t, 3>> added;
@@ -347,7 +309,7 @@ class Player {
     return edit(desc, {HF_ERROR_INVALID_ARGUMENT, HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED, HF_ERROR_NOT_FOUND});
   }
 
-  bool unlink() {
+  bool unlink(unsigned) {
     const auto count = static_cast<std::uint32_t>(links_of(surface()).size());
     if (count == 0) return false;
     const std::uint32_t number = bytes_.take() % count;
@@ -356,6 +318,8 @@ class Player {
     desc.removed_links = &number;
     return edit(desc, {});
   }
+
+  bool undo_or_change_sites(unsigned how) { return how % 2 ? undo() : change_sites(); }
 
   bool undo() {
     if (history_.empty()) return false;
@@ -367,7 +331,7 @@ class Player {
     const std::uint32_t v = any_vertex();
     const double value = bytes_.take() / 255.0;
     std::uint32_t number = none;
-    const hf_result got = hf_solver_add_site(solver_.get(), v, &value, &number);
+    const hf_result got = hf_solver_add_site(solver_, v, &value, &number);
     if (got == HF_OK) {
       sites_[number] = {v, value};
     } else {
@@ -381,7 +345,7 @@ class Player {
     if (sites_.size() > 6 || (sites_.size() > 2 && bytes_.take() % 2)) {
       auto one = sites_.begin();
       std::advance(one, static_cast<std::ptrdiff_t>(bytes_.take() % sites_.size()));
-      if (hf_remove_sites(solver_.get(), 1, &one->first) != HF_OK) fail("hf_remove_sites");
+      if (hf_remove_sites(solver_, 1, &one->first) != HF_OK) fail("hf_remove_sites");
       sites_.erase(one);
     } else {
       add_site();
@@ -400,23 +364,23 @@ class Player {
     const OwnedSurface made = fresh(links_of(surface()));
     hf_surface_report a = HF_INIT(hf_surface_report), b = HF_INIT(hf_surface_report);
     hf_surface_get_report(surface(), &a);
-    hf_surface_get_report(made.get(), &b);
+    hf_surface_get_report(made, &b);
     hold(a.vertex_count == b.vertex_count && a.component_count == b.component_count &&
              a.isolated_vertex_count == b.isolated_vertex_count && a.boundary_edge_count == b.boundary_edge_count,
          std::string("another report after ") + after);
     std::vector<std::uint32_t> parts(host().vertex_count()), others(parts);
     const auto size = static_cast<std::uint32_t>(parts.size());
     hf_surface_get_components(surface(), size, parts.data(), nullptr);
-    hf_surface_get_components(made.get(), size, others.data(), nullptr);
+    hf_surface_get_components(made, size, others.data(), nullptr);
     hold(parts == others, std::string("other components after ") + after);
     if (sites_.empty()) return;
     OwnedSolver solver;
-    if (hf_create(made.get(), nullptr, solver.out()) != HF_OK) fail("a fresh solver");
+    if (hf_create(made, nullptr, solver.out()) != HF_OK) fail("a fresh solver");
     for (const auto& [number, site] : sites_) {
-      const hf_result got = hf_solver_add_site(solver.get(), site.vertex, &site.value, nullptr);
+      const hf_result got = hf_solver_add_site(solver, site.vertex, &site.value, nullptr);
       if (got != HF_OK) fail(std::string("a site of the fresh surface after ") + after);
     }
-    const std::vector<double> field = field_of(solver_.get()), truth = field_of(solver.get());
+    const std::vector<double> field = field_of(solver_), truth = field_of(solver);
     double worst = 0;
     for (std::size_t v = 0; v < field.size(); ++v) {
       const double off = std::fabs(field[v] - truth[v]);
@@ -424,7 +388,7 @@ class Player {
     }
     outcome_.worst = std::max(outcome_.worst, worst);
     if (!(worst <= tolerance)) fail("a field is off by " + std::to_string(1e12 * worst) + "e-12 after " + after);
-    if (bytes_.peek() % 4 == 0) compare_shapes(made.get(), after);
+    if (bytes_.peek() % 4 == 0) compare_shapes(made, after);
   }
 
   // Poses and exact distances on the edited surface and on the fresh one.
@@ -441,10 +405,10 @@ class Player {
       const hf_array_out out = HF_ARRAY_OUT(distance[i].data(), distance[i].size());
       hf_geodesics_desc exact = HF_INIT(hf_geodesics_desc);
       exact.method = HF_GEODESICS_EXACT;
-      Owner<hf_geodesics, hf_geodesics_destroy> geodesics;
+      Owned<hf_geodesics, hf_geodesics_destroy> geodesics;
       if (hf_geodesics_create(both[i], &exact, geodesics.out()) != HF_OK) fail("hf_geodesics_create");
-      got[i][0] = hf_geodesics_solve(geodesics.get(), 1, &source, &out);
-      Owner<hf_pose, hf_pose_destroy> pose;
+      got[i][0] = hf_geodesics_solve(geodesics, 1, &source, &out);
+      Owned<hf_pose, hf_pose_destroy> pose;
       if (hf_pose_create(both[i], nullptr, pose.out()) != HF_OK) fail("hf_pose_create");
       hf_handles_desc handles = HF_INIT(hf_handles_desc);
       const std::uint32_t ends[2] = {source, far};
@@ -453,11 +417,11 @@ class Player {
       handles.handle_count = 2;
       handles.vertices = ends;
       handles.radii = radii;
-      got[i][1] = hf_pose_add_handles(pose.get(), &handles, numbers);
+      got[i][1] = hf_pose_add_handles(pose, &handles, numbers);
       if (got[i][1] != HF_OK) continue;
       const hf_transform moved = {{0.0, 0.2, 0.0, 0.9797958971132712}, {0.3, 0.2, 0.1}};
-      hf_pose_set_transform(pose.get(), numbers[1], &moved);
-      if (hf_deform(pose.get(), posed[i].data(), nullptr) != HF_OK) fail("hf_deform");
+      hf_pose_set_transform(pose, numbers[1], &moved);
+      if (hf_deform(pose, posed[i].data(), nullptr) != HF_OK) fail("hf_deform");
     }
     hold(got[0][0] == got[1][0] && got[0][1] == got[1][1], std::string("other results after ") + after);
     double off[2] = {0, 0};

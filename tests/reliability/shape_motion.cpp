@@ -17,7 +17,7 @@ bool Player::transfer() {
   if (!itself) {
     other = take_mesh();
     const hf_surface_desc desc = reliability::surface_desc(other);
-    if (!done("hf_surface_create", hf_surface_create(&desc, &second.handle), HF_ERROR_EMPTY)) return false;
+    if (!done("hf_surface_create", hf_surface_create(&desc, second.out()), HF_ERROR_EMPTY)) return false;
   }
   const Mesh& target = itself ? mesh_ : other;
   hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
@@ -27,7 +27,7 @@ bool Player::transfer() {
   desc.mode = mode_of(kind);
   desc.cluster_count = how & 16 ? 6 : 0;
   Owned<hf_transfer, hf_transfer_destroy> transfer;
-  expect(HF_OK, create_transfer_with(kind, surface_, itself ? surface_ : second.handle, &desc, &transfer.handle),
+  expect(HF_OK, create_transfer_with(kind, surface_, itself ? surface_ : second, &desc, transfer.out()),
          "hf_transfer_create");
   const std::uint32_t flags[] = {0,
                                  HF_PAIR_TRUNK | HF_PAIR_ANCHOR,
@@ -54,7 +54,7 @@ bool Player::transfer() {
   added.source_vertices = vertices[0].data();
   added.target_counts = counts[1].data();
   added.target_vertices = vertices[1].data();
-  if (!done("hf_transfer_add_pairs", hf_transfer_add_pairs(transfer.handle, &added, nullptr), HF_ERROR_CONFLICT,
+  if (!done("hf_transfer_add_pairs", hf_transfer_add_pairs(transfer, &added, nullptr), HF_ERROR_CONFLICT,
             HF_ERROR_INVALID_ARGUMENT))
     return false;
 
@@ -64,13 +64,13 @@ bool Player::transfer() {
     hf_transfer_frame f = HF_INIT(hf_transfer_frame);
     f.source_positions = HF_ARRAY(source.data(), source.size() / 3);
     f.target_positions = ROWS_OUT(out.data());
-    expect(HF_OK, hf_transfer_apply(transfer.handle, &f), "hf_transfer_apply");
+    expect(HF_OK, hf_transfer_apply(transfer, &f), "hf_transfer_apply");
     hold(finite(out), "hf_transfer_apply: not finite");
     return out;
   };
   std::vector<std::uint8_t> sinking(target.vertex_count(), 2);
   if (kind != TRANSFER_STRETCH || how & 32) {
-    if (done("hf_transfer_get_sinking", hf_transfer_get_sinking(transfer.handle, sinking.data()), HF_ERROR_UNSUPPORTED))
+    if (done("hf_transfer_get_sinking", hf_transfer_get_sinking(transfer, sinking.data()), HF_ERROR_UNSUPPORTED))
       hold(*std::max_element(sinking.begin(), sinking.end()) <= 1, "hf_transfer_get_sinking: neither 0 nor 1");
   }
   const std::vector<double> moved = frame(posed());
@@ -82,7 +82,7 @@ bool Player::transfer() {
     off = std::max(off, std::fabs(still[i] - at));
   }
   hf_transfer_info info = HF_INIT(hf_transfer_info);
-  expect(HF_OK, hf_transfer_get_info(transfer.handle, &info), "hf_transfer_get_info");
+  expect(HF_OK, hf_transfer_get_info(transfer, &info), "hf_transfer_get_info");
   // aligned limbs take the direction of the source's
   hold(info.aligned_count > 0 || off <= 1e-4 * size,
        "a source at rest gives a target that is off by " + std::to_string(off / size));
@@ -93,9 +93,9 @@ bool Player::transfer() {
   dials.tail_follow = 1;
   dials.arm_space = 0.5;
   dials.long_follow = 0.5;
-  expect(HF_OK, hf_transfer_set_dials(transfer.handle, &dials), "hf_transfer_set_dials");
+  expect(HF_OK, hf_transfer_set_dials(transfer, &dials), "hf_transfer_set_dials");
   frame(posed());
-  expect(HF_OK, hf_transfer_set_dials(transfer.handle, nullptr), "hf_transfer_set_dials");
+  expect(HF_OK, hf_transfer_set_dials(transfer, nullptr), "hf_transfer_set_dials");
   hold(frame(posed()) == moved, "hf_transfer_apply: neutral dials give other bits");
   return true;
 }
@@ -133,7 +133,7 @@ bool Player::weights() {
   bones.parents = parents.data();
   Owned<hf_weights, hf_weights_destroy> made;
   const std::uint32_t each = how & 2 ? 8 : 4;
-  expect(HF_OK, hf_weights_create(surface_, &bones, each, &made.handle), "hf_weights_create");
+  expect(HF_OK, hf_weights_create(surface_, &bones, each, made.out()), "hf_weights_create");
   std::vector<std::uint32_t> joints(8 * std::size_t{mesh_.vertex_count()});
   std::vector<float> weights(joints.size());
   const auto fresh_out = [&] {
@@ -144,7 +144,7 @@ bool Player::weights() {
     return out;
   };
   hf_weights_out out = fresh_out();
-  expect(HF_OK, hf_weights_get(made.handle, &out), "hf_weights_get");
+  expect(HF_OK, hf_weights_get(made, &out), "hf_weights_get");
   check_weights("hf_weights_create", out);
   if (how & 4) {
     const std::vector<std::uint32_t> pinned = take_vertices(3);
@@ -157,9 +157,9 @@ bool Player::weights() {
     pins.joints = to.data();
     pins.weights = whole.data();
     std::vector<float> before(weights);
-    const bool held = done("hf_weights_set_pins", hf_weights_set_pins(made.handle, &pins), HF_ERROR_DUPLICATE,
+    const bool held = done("hf_weights_set_pins", hf_weights_set_pins(made, &pins), HF_ERROR_DUPLICATE,
                            HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE);
-    expect(HF_OK, hf_weights_get(made.handle, &out), "hf_weights_get");
+    expect(HF_OK, hf_weights_get(made, &out), "hf_weights_get");
     check_weights("hf_weights_set_pins", out);
     if (!held) hold(before == weights, "refused pins changed the weights");
     for (const std::uint32_t v : pinned)
@@ -218,7 +218,7 @@ bool Player::links() {
   desc.light_count = static_cast<std::uint32_t>(light.size());
   desc.light_vertices = light.empty() ? nullptr : light.data();
   Surface linked, again;
-  if (!done("hf_surface_relink", hf_surface_relink(surface_, &desc, nullptr, &linked.handle),
+  if (!done("hf_surface_relink", hf_surface_relink(surface_, &desc, nullptr, linked.out()),
             HF_ERROR_INVALID_ARGUMENT))
     return false;
   const auto links_of = [](hf_surface surface) {
@@ -228,7 +228,7 @@ bool Player::links() {
     expect(HF_OK, hf_surface_get_links(surface, count, out.data(), &count), "hf_surface_get_links");
     return out;
   };
-  const std::vector<hf_link> found = links_of(linked.handle);
+  const std::vector<hf_link> found = links_of(linked);
   for (const hf_link& link : found) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
@@ -244,7 +244,7 @@ bool Player::links() {
   hf_gaps_info opened = HF_INIT(hf_gaps_info);
   expect(
       HF_OK,
-      hf_surface_measure_gaps(linked.handle, &measured, static_cast<std::uint32_t>(gaps.size()), gaps.data(), &opened),
+      hf_surface_measure_gaps(linked, &measured, static_cast<std::uint32_t>(gaps.size()), gaps.data(), &opened),
       "hf_surface_measure_gaps");
   hold(opened.link_count == gaps.size() && std::isfinite(opened.worst), "another count of gaps");
   hold(finite(gaps), "a gap is not finite");
@@ -253,8 +253,8 @@ bool Player::links() {
   list.mode = HF_LINK_LIST;
   list.links = found.data();
   list.link_count = static_cast<std::uint32_t>(found.size());
-  expect(HF_OK, hf_surface_relink(surface_, &list, nullptr, &again.handle), "hf_surface_relink with its own links");
-  const std::vector<hf_link> same = links_of(again.handle);
+  expect(HF_OK, hf_surface_relink(surface_, &list, nullptr, again.out()), "hf_surface_relink with its own links");
+  const std::vector<hf_link> same = links_of(again);
   hold(same.size() == found.size(), "links given back are others");
   for (std::size_t i = 0; i < same.size(); ++i)
     hold(same[i].vertex == found[i].vertex && std::fabs(same[i].length - found[i].length) <= 1e-6 * diagonal_,

@@ -6,6 +6,7 @@
 
 #include "play.h"
 #include "shape_player.h"
+#include "support/owned.h"
 #include "surfaces.h"
 
 namespace shapes {
@@ -15,15 +16,7 @@ using play::expect;
 using play::hold;
 using reliability::Mesh;
 
-// A handle that is destroyed with its owner.
-template <class Handle, void (*destroy)(Handle)>
-struct Owned {
-  Handle handle = nullptr;
-  Owned() = default;
-  Owned(const Owned&) = delete;
-  Owned& operator=(const Owned&) = delete;
-  ~Owned() { destroy(handle); }
-};
+using hf_test::Owned;
 using Surface = Owned<hf_surface, hf_surface_destroy>;
 
 inline bool finite(const std::vector<double>& values) {

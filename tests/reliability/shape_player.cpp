@@ -138,17 +138,17 @@ bool Player::quads() {
   using Quads = Owned<hf_quads, hf_quads_destroy>;
   take_options();
   Quads first;
-  if (!done("hf_quads_create", hf_quads_create(surface_, &desc, &first.handle), HF_ERROR_INVALID_ARGUMENT,
+  if (!done("hf_quads_create", hf_quads_create(surface_, &desc, first.out()), HF_ERROR_INVALID_ARGUMENT,
             HF_ERROR_UNSUPPORTED, HF_ERROR_TOO_LARGE))
-    return hold(first.handle == nullptr, "refused quads are no NULL"), false;
-  check_quads(first.handle);
+    return hold(first == nullptr, "refused quads are no NULL"), false;
+  check_quads(first);
   if (!(parts & 64)) return true;
-  const std::vector<double> before = positions_of(first.handle);
+  const std::vector<double> before = positions_of(first);
   take_options();
   Quads fresh;
-  const hf_result created = hf_quads_create(surface_, &desc, &fresh.handle);
-  expect(created, hf_quads_update(first.handle, &desc), "hf_quads_update");
-  hold(positions_of(first.handle) == (created == HF_OK ? positions_of(fresh.handle) : before),
+  const hf_result created = hf_quads_create(surface_, &desc, fresh.out());
+  expect(created, hf_quads_update(first, &desc), "hf_quads_update");
+  hold(positions_of(first) == (created == HF_OK ? positions_of(fresh) : before),
        "hf_quads_update: other quads");
   return true;
 }
@@ -159,7 +159,7 @@ bool Player::region() {
   hf_region_desc options = HF_INIT(hf_region_desc);
   options.base = static_cast<int>(how % 4);
   Owned<hf_region, hf_region_destroy> region;
-  if (!done("hf_region_create", hf_region_create(surface_, &options, &region.handle), HF_ERROR_NOT_POSITIVE_DEFINITE))
+  if (!done("hf_region_create", hf_region_create(surface_, &options, region.out()), HF_ERROR_NOT_POSITIVE_DEFINITE))
     return false;
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
@@ -185,9 +185,9 @@ bool Player::region() {
   edit.curve = &curve;
   const auto inside = [&](int list) {
     std::uint32_t count = 0;
-    expect(HF_OK, hf_region_get_vertices(region.handle, list, 0, nullptr, &count), "hf_region_get_vertices");
+    expect(HF_OK, hf_region_get_vertices(region, list, 0, nullptr, &count), "hf_region_get_vertices");
     std::vector<std::uint32_t> out(count);
-    expect(HF_OK, hf_region_get_vertices(region.handle, list, count, out.data(), &count), "hf_region_get_vertices");
+    expect(HF_OK, hf_region_get_vertices(region, list, count, out.data(), &count), "hf_region_get_vertices");
     hold(std::is_sorted(out.begin(), out.end()) && (out.empty() || out.back() < mesh_.vertex_count()),
          "a list of a region is not ascending");
     return out;
@@ -197,20 +197,20 @@ bool Player::region() {
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
     morph.weight = weight;
     morph.positions = ROWS_OUT(out.data());
-    expect(HF_OK, hf_region_morph(region.handle, &morph), "hf_region_morph");
+    expect(HF_OK, hf_region_morph(region, &morph), "hf_region_morph");
     hold(finite(out), "hf_region_morph: not finite");
     return out;
   };
-  if (!done("hf_region_edit", hf_region_edit(region.handle, &edit), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY))
+  if (!done("hf_region_edit", hf_region_edit(region, &edit), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY))
     return hold(inside(HF_REGION_INSIDE).empty(), "a refused curve made a region"), false;
   const std::vector<std::uint32_t> first = inside(HF_REGION_INSIDE), rim = inside(HF_REGION_RIM);
   hold(!first.empty() && !rim.empty(), "a curve made an empty region");
   for (const std::uint32_t v : rim)
     hold(!std::binary_search(first.begin(), first.end(), v), "a vertex of the rim is inside");
   std::uint32_t corners = 0;
-  expect(HF_OK, hf_region_get_curve(region.handle, 0, nullptr, &corners), "hf_region_get_curve");
+  expect(HF_OK, hf_region_get_curve(region, 0, nullptr, &corners), "hf_region_get_curve");
   std::vector<double> drawn(3 * std::size_t{corners});
-  expect(HF_OK, hf_region_get_curve(region.handle, corners, drawn.data(), &corners), "hf_region_get_curve");
+  expect(HF_OK, hf_region_get_curve(region, corners, drawn.data(), &corners), "hf_region_get_curve");
   hold(corners >= 3 && finite(drawn), "a curve of fewer than three corners");
   const std::vector<double> rest = morphed(0), base = morphed(1);
   for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
@@ -228,26 +228,26 @@ bool Player::region() {
   }
   if (how & 32) {
     hf_region before = nullptr;
-    expect(HF_OK, hf_region_clone(region.handle, &before), "hf_region_clone");
+    expect(HF_OK, hf_region_clone(region, &before), "hf_region_clone");
     hf_region_edit_desc rings = HF_INIT(hf_region_edit_desc);
     rings.ring_count = static_cast<int>(bytes_.take() % 5) - 2;
-    const hf_result got = hf_region_edit(region.handle, &rings);
+    const hf_result got = hf_region_edit(region, &rings);
     if (!done("hf_region_edit", got, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY))
       hold(inside(HF_REGION_INSIDE) == first && morphed(1) == base, "a refused edit changed a region");
-    hf_region_destroy(region.handle);
-    region.handle = before;
+    hf_region_destroy(region);
+    *region.out() = before;
     hold(inside(HF_REGION_INSIDE) == first && morphed(1) == base, "hf_region_clone: another region");
   }
   if (how & 64) {
     Owned<hf_detail, hf_detail_destroy> detail;
-    if (!done("hf_detail_create", hf_detail_create(region.handle, region.handle, nullptr, &detail.handle),
+    if (!done("hf_detail_create", hf_detail_create(region, region, nullptr, detail.out()),
               HF_ERROR_UNSUPPORTED))
       return true;
     std::vector<double> carried(rest.size());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
     morph.weight = 1;
     morph.positions = ROWS_OUT(carried.data());
-    expect(HF_OK, hf_detail_morph(detail.handle, &morph), "hf_detail_morph");
+    expect(HF_OK, hf_detail_morph(detail, &morph), "hf_detail_morph");
     for (std::size_t i = 0; i < rest.size(); ++i)
       hold(std::fabs(carried[i] - rest[i]) <= 1e-6 * diagonal_, "detail carried to its own region is another");
   }
@@ -269,8 +269,8 @@ void Player::run() {
   if (b & 1) desc.links = &linked;
   if (b & 2) desc.thread_count = 2;
   Surface surface;
-  if (!done("hf_surface_create", hf_surface_create(&desc, &surface.handle), HF_ERROR_EMPTY)) return;
-  surface_ = surface.handle;
+  if (!done("hf_surface_create", hf_surface_create(&desc, surface.out()), HF_ERROR_EMPTY)) return;
+  surface_ = surface;
   for (int calls = 0; !bytes_.done() && calls < 4; ++calls) {
     const unsigned kind = bytes_.take() % kind_count;
     ++outcome_.calls[kind];

@@ -2,20 +2,16 @@
 //!
 //! MODEL: a glb or gltf file. Drags a limb of each creature for two seconds of 60 frames, says how long a frame takes without the
 //! drawing, and writes OUT.png. With `processor` the vertices are written by the processor, to compare the two.
-use bevy::asset::UnapprovedPathMode;
 use bevy::camera::RenderTarget;
 use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::gltf::GltfAssetLabel;
-use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
-use bevy::render::RenderPlugin;
-use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
 use bevy::render::render_resource::TextureFormat;
-use bevy::render::view::window::screenshot::{Screenshot, ScreenshotCaptured};
-use bevy::window::ExitCondition;
-use hf_bevy::{DeformError, DeformHandle, DeformPlugin, DeformSystems, DeformedMesh, Deformer, GpuBlend, GpuBlendPlugin};
+use hf_bevy::{DeformHandle, DeformPlugin, DeformSystems, DeformedMesh, Deformer, GpuBlend, GpuBlendPlugin};
 use std::f32::consts::TAU;
 use std::time::{Duration, Instant};
+
+mod headless;
 
 /// two seconds at 60 Hz
 const FRAMES: u32 = 120;
@@ -52,13 +48,7 @@ fn main() {
 fn crowd(model: &str, count: &str, out: &str, gpu: bool) -> Result<(), String> {
     let count: usize = count.parse().map_err(|_| format!("COUNT is no number: {count}"))?;
     let mut app = App::new();
-    let plugins = DefaultPlugins
-        .set(WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() })
-        .set(AssetPlugin { unapproved_path_mode: UnapprovedPathMode::Allow, ..default() })
-        .set(LogPlugin { level: Level::WARN, ..default() })
-        .set(RenderPlugin { synchronous_pipeline_compilation: true, ..default() })
-        .disable::<PipelinedRenderingPlugin>();
-    app.add_plugins((plugins, DeformPlugin, GpuBlendPlugin)).init_resource::<Frame>();
+    app.add_plugins((headless::plugins(), DeformPlugin, GpuBlendPlugin)).init_resource::<Frame>();
     app.insert_resource(Posing(Instant::now(), Duration::ZERO)).insert_resource(ClearColor(Color::srgb_u8(41, 43, 51)));
     app.add_systems(Update, drag).add_systems(
         PostUpdate,
@@ -77,7 +67,6 @@ fn crowd(model: &str, count: &str, out: &str, gpu: bool) -> Result<(), String> {
         deform: hf_bevy::hf::DeformOptions { iteration_count: 1, ..default() },
         ..default()
     };
-    let begin = Instant::now();
     let creatures: Vec<Entity> =
         (0..count).map(|_| app.world_mut().spawn((WorldAssetRoot(scene.clone()), deformer, Transform::default())).id()).collect();
     if gpu {
@@ -85,15 +74,7 @@ fn crowd(model: &str, count: &str, out: &str, gpu: bool) -> Result<(), String> {
             app.world_mut().entity_mut(creature).insert(GpuBlend);
         }
     }
-    while creatures.iter().any(|&creature| app.world().get::<DeformedMesh>(creature).is_none()) {
-        app.update();
-        if let Some(error) = creatures.iter().find_map(|&creature| app.world().get::<DeformError>(creature)) {
-            return Err(error.0.to_string());
-        }
-        if begin.elapsed() > Duration::from_secs(60) {
-            return Err(format!("{model} has not loaded in a minute"));
-        }
-    }
+    headless::load(&mut app, &creatures, model)?;
     let (camera, image) = stage(&mut app, &creatures).map_err(|error| error.to_string())?;
     app.insert_resource(Frame(0));
 
@@ -112,14 +93,9 @@ fn crowd(model: &str, count: &str, out: &str, gpu: bool) -> Result<(), String> {
     let (vertices, handles) = (first.rest().len(), first.handle_count());
     let by = if gpu { "the GPU" } else { "the processor" };
     println!("{count} creatures of {vertices} vertices and {handles} handles; vertices by {by}");
-    for (what, mut times) in
-        [("of solves, added up over threads", solving), ("in DeformSystems", posing), ("in all, without drawing", whole)]
-    {
-        times.sort();
-        let ms = |time: Duration| 1e3 * time.as_secs_f64();
-        println!("a frame: {:.1} ms {what} (worst {:.1})", ms(times[times.len() / 2]), ms(*times.last().unwrap()));
-    }
-    draw(&mut app, camera, &image, out)
+    headless::say([("of solves, added up over threads", solving), ("in DeformSystems", posing), ("in all, without drawing", whole)]);
+    app.world_mut().get_mut::<Camera>(camera).unwrap().is_active = true;
+    headless::draw(&mut app, &image, &format!("{out}.png")).map(|_| ())
 }
 
 /// Handles, places in a square, a light, and a camera that draws nothing yet.
@@ -169,21 +145,4 @@ fn drag(mut frame: ResMut<Frame>, mut dragged: Query<(&Dragged, &mut Transform)>
         let t = TAU * (frame.0 as f32 / FRAMES as f32 + dragged.phase);
         place.translation = dragged.from + dragged.size * (0.16 * (t / 2.0).sin().powi(2) * Vec3::Y + 0.1 * t.sin() * Vec3::Z);
     }
-}
-
-fn draw(app: &mut App, camera: Entity, image: &Handle<Image>, out: &str) -> Result<(), String> {
-    #[derive(Resource, Default)]
-    struct Picture(Option<Image>);
-    app.init_resource::<Picture>();
-    app.world_mut().get_mut::<Camera>(camera).unwrap().is_active = true;
-    (0..2).for_each(|_| app.update());
-    let keep = |captured: On<ScreenshotCaptured>, mut picture: ResMut<Picture>| picture.0 = Some(captured.image.clone());
-    app.world_mut().spawn(Screenshot::image(image.clone())).observe(keep);
-    for _ in 0..20 {
-        app.update();
-        let Some(picture) = app.world_mut().resource_mut::<Picture>().0.take() else { continue };
-        let picture = picture.try_into_dynamic().map_err(|error| error.to_string())?;
-        return picture.to_rgb8().save(format!("{out}.png")).map_err(|error| format!("{out}.png: {error}"));
-    }
-    Err("the picture did not come".into())
 }

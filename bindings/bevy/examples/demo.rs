@@ -2,22 +2,18 @@
 //!
 //! MODEL: a glb or gltf file. Writes OUT_rest.png, OUT_1.png ... and says how long a frame took. Ends with 1 when a picture
 //! shows nothing or a pose is wrong. With the feature `window`, `demo MODEL` shows the same in a window.
-use bevy::asset::UnapprovedPathMode;
 use bevy::camera::RenderTarget;
 use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::gltf::GltfAssetLabel;
-use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
-use bevy::render::RenderPlugin;
-use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
 use bevy::render::render_resource::TextureFormat;
 use bevy::render::renderer::RenderAdapterInfo;
-use bevy::render::view::window::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::time::TimeUpdateStrategy;
-use bevy::window::ExitCondition;
-use hf_bevy::{DeformError, DeformHandle, DeformPlugin, DeformedMesh, Deformer};
+use hf_bevy::{DeformHandle, DeformPlugin, DeformedMesh, Deformer};
 use std::path::Path;
 use std::time::{Duration, Instant};
+
+mod headless;
 
 /// two seconds at 60 Hz, and the frame of a drag that is drawn into a file
 const FRAMES: u32 = 120;
@@ -31,13 +27,10 @@ struct Stage {
     along: Vec3,
 }
 
-#[derive(Resource, Default)]
-struct Picture(Option<Image>);
-
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let done = match &arguments[..] {
-        [model, out] => headless(model, out),
+        [model, out] => without_window(model, out),
         #[cfg(feature = "window")]
         [model] => window::run(model),
         _ => Err("usage: demo MODEL OUT".into()),
@@ -98,33 +91,18 @@ fn path(stage: &Stage, frame: u32) -> Vec3 {
     stage.size * (0.16 * (t / 2.0).sin().powi(2) * Vec3::Y + 0.1 * t.sin() * stage.along)
 }
 
-fn headless(model: &str, out: &str) -> Result<(), String> {
+fn without_window(model: &str, out: &str) -> Result<(), String> {
     if !Path::new(model).is_file() {
         return Err(format!("no file {model}"));
     }
     let mut app = App::new();
-    let plugins = DefaultPlugins
-        .set(WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() })
-        .set(AssetPlugin { unapproved_path_mode: UnapprovedPathMode::Allow, ..default() })
-        .set(LogPlugin { level: Level::WARN, ..default() })
-        .set(RenderPlugin { synchronous_pipeline_compilation: true, ..default() })
-        .disable::<PipelinedRenderingPlugin>();
-    app.add_plugins(plugins).init_resource::<Picture>();
+    app.add_plugins(headless::plugins());
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs(1) / 60));
     let deformer = stage(&mut app, model);
     app.finish();
     app.cleanup();
 
-    let begin = Instant::now();
-    while app.world().get::<DeformedMesh>(deformer).is_none() {
-        app.update();
-        if let Some(error) = app.world().get::<DeformError>(deformer) {
-            return Err(error.0.to_string());
-        }
-        if begin.elapsed() > Duration::from_secs(60) {
-            return Err(format!("{model} has not loaded in a minute"));
-        }
-    }
+    headless::load(&mut app, &[deformer], model)?;
     let image = Image::new_target_texture(800, 600, TextureFormat::Rgba8UnormSrgb, None);
     let image = app.world_mut().resource_mut::<Assets<Image>>().add(image);
     let stage = look(app.world_mut(), deformer, Some(RenderTarget::Image(image.clone().into())));
@@ -165,11 +143,7 @@ fn headless(model: &str, out: &str) -> Result<(), String> {
     let bound = deformed.surface().statistics().map_err(|error| error.to_string())?;
     let bound = bound.weld_ms + bound.operator_ms + bound.ordering_ms + bound.symbolic_ms + bound.numeric_ms + bound.links_ms;
     println!("{} vertices, {number} meshes, {} handles, bound in {bound:.0} ms", deformed.rest().len(), deformed.handle_count());
-    for (what, mut times) in [("to solve the pose", solve), ("to pose: solved and written", pose), ("in all, drawn", whole)] {
-        times.sort();
-        let ms = |time: Duration| 1e3 * time.as_secs_f64();
-        println!("a frame: {:.1} ms {what} (worst {:.1})", ms(times[times.len() / 2]), ms(*times.last().unwrap()));
-    }
+    headless::say([("to solve the pose", solve), ("to pose: solved and written", pose), ("in all, drawn", whole)]);
     Ok(())
 }
 
@@ -201,30 +175,14 @@ fn landed(world: &World, deformer: Entity, point: Vec3, moved: Vec3, stage: &Sta
 
 /// Draws the creature as it is and writes the picture. Refuses one that shows nothing.
 fn draw(app: &mut App, image: &Handle<Image>, file: &str) -> Result<Vec<[u8; 3]>, String> {
-    for _ in 0..2 {
-        app.update(); // a new camera needs a frame
+    let pixels = headless::draw(app, image, file)?;
+    let (drawn, mut shades) = (pixels.iter().filter(|pixel| **pixel != BACKGROUND).count(), pixels.clone());
+    shades.sort_unstable();
+    shades.dedup();
+    if drawn < pixels.len() / 50 || drawn > pixels.len() * 9 / 10 || shades.len() < 50 {
+        return Err(format!("{file}: {drawn} of {} pixels drawn, {} colours", pixels.len(), shades.len()));
     }
-    app.world_mut().resource_mut::<Picture>().0 = None;
-    let keep = |captured: On<ScreenshotCaptured>, mut picture: ResMut<Picture>| picture.0 = Some(captured.image.clone());
-    app.world_mut().spawn(Screenshot::image(image.clone())).observe(keep);
-    for _ in 0..100 {
-        app.update();
-        let Some(picture) = app.world_mut().resource_mut::<Picture>().0.take() else { continue };
-        let picture = picture.try_into_dynamic().map_err(|error| error.to_string())?.to_rgb8();
-        if let Some(folder) = Path::new(file).parent() {
-            std::fs::create_dir_all(folder).map_err(|error| format!("{file}: {error}"))?;
-        }
-        picture.save(file).map_err(|error| format!("{file}: {error}"))?;
-        let pixels: Vec<[u8; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
-        let (drawn, mut shades) = (pixels.iter().filter(|pixel| **pixel != BACKGROUND).count(), pixels.clone());
-        shades.sort_unstable();
-        shades.dedup();
-        if drawn < pixels.len() / 50 || drawn > pixels.len() * 9 / 10 || shades.len() < 50 {
-            return Err(format!("{file}: {drawn} of {} pixels drawn, {} colours", pixels.len(), shades.len()));
-        }
-        return Ok(pixels);
-    }
-    Err(format!("{file}: the picture did not come"))
+    Ok(pixels)
 }
 
 #[cfg(feature = "window")]

@@ -1235,9 +1235,8 @@ namespace Hf
     }
 
     /// <summary>One proposed handle. position and radius are as in HandlesDesc: the regions of all proposals are disjoint.
-    /// If a skeleton with known roles is given, regions has all vertices of a head, a hand or a foot. Give these
-    /// vertices to HandlesDesc. The region of position and radius is then a part of them, which can be too small
-    /// for a handle.</summary>
+    /// If a skeleton with known roles is given, regions has all vertices of a head, a hand or a foot: give these to
+    /// HandlesDesc for the whole part. The region of position and radius is then a part of these vertices.</summary>
     public sealed unsafe partial class HandleProposal
     {
         /// <summary>nearest to the position; of your mesh, the first of welded copies</summary>

@@ -734,9 +734,8 @@ export interface BlendInfluences {
 
 /**
  * One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint.
- * If a skeleton with known roles is given, regions has all vertices of a head, a hand or a foot. Give these
- * vertices to hf_handles_desc. The region of position and radius is then a part of them, which can be too small
- * for a handle.
+ * If a skeleton with known roles is given, regions has all vertices of a head, a hand or a foot: give these to
+ * hf_handles_desc for the whole part. The region of position and radius is then a part of these vertices.
  */
 export interface HandleProposal {
   /** nearest to the position; of your mesh, the first of welded copies */
