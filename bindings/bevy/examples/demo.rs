@@ -10,6 +10,7 @@ use bevy::render::render_resource::TextureFormat;
 use bevy::render::renderer::RenderAdapterInfo;
 use bevy::time::TimeUpdateStrategy;
 use hf_bevy::{DeformHandle, DeformPlugin, DeformedMesh, Deformer};
+use std::collections::HashSet;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -124,7 +125,7 @@ fn without_window(model: &str, out: &str) -> Result<(), String> {
             pose.push(all);
             solve.push(solved);
             if frame == DRAWN {
-                landed(app.world(), deformer, point, path(&stage, frame), &stage)?;
+                landed(app.world(), deformer, (point, radius), path(&stage, frame), &stage)?;
                 let drawn = draw(&mut app, &image, &format!("{out}_{}.png", k + 1))?;
                 let changed = rest.iter().zip(&drawn).filter(|(a, b)| a != b).count();
                 if changed < rest.len() / 200 {
@@ -132,7 +133,7 @@ fn without_window(model: &str, out: &str) -> Result<(), String> {
                 }
             }
         }
-        let off = landed(app.world(), deformer, point, Vec3::ZERO, &stage)?;
+        let off = landed(app.world(), deformer, (point, radius), Vec3::ZERO, &stage)?;
         println!("tip {}: back within {off:.1e} of the size", k + 1);
     }
     if let Some(adapter) = app.world().get_resource::<RenderAdapterInfo>() {
@@ -147,15 +148,18 @@ fn without_window(model: &str, out: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Checks that the vertex at a handle's point is where the handle put it, and that the mesh on show has every posed vertex.
-fn landed(world: &World, deformer: Entity, point: Vec3, moved: Vec3, stage: &Stage) -> Result<f32, String> {
+/// Checks that the region of a handle is where the handle put it, and that the mesh on show has every posed vertex. The rotation
+/// of a tip follows its limb, so the middle of the region counts.
+fn landed(world: &World, deformer: Entity, (point, radius): (Vec3, f32), moved: Vec3, stage: &Stage) -> Result<f32, String> {
     let deformed = world.get::<DeformedMesh>(deformer).unwrap();
     if deformed.posed().iter().flatten().any(|x| !x.is_finite()) {
         return Err("a posed vertex is not finite".into());
     }
-    let far = |p: &[f32; 3]| Vec3::from_array(*p).distance_squared(point);
-    let near = (0..deformed.rest().len()).min_by(|&a, &b| far(&deformed.rest()[a]).total_cmp(&far(&deformed.rest()[b]))).unwrap();
-    let off = (Vec3::from_array(deformed.posed()[near]) - Vec3::from_array(deformed.rest()[near]) - moved).length() / stage.size;
+    let mut copies = HashSet::new(); // of a vertex at a seam: one counts
+    let both = deformed.rest().iter().zip(deformed.posed()).filter(|(p, _)| copies.insert(p.map(f32::to_bits)));
+    let both = both.map(|(p, q)| (Vec3::from_array(*p), Vec3::from_array(*q)));
+    let ways: Vec<Vec3> = both.filter(|(p, _)| p.distance(point) <= radius).map(|(p, q)| q - p).collect();
+    let off = (ways.iter().sum::<Vec3>() / ways.len() as f32 - moved).length() / stage.size;
     if off > 1e-4 {
         return Err(format!("a handle is {off:.1e} of the size from where it was put"));
     }
